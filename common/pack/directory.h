@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+//
+// A pack's directory: what a client must know to choose parts, ask for them, check them and place them.
+// On disk and on the wire it is the same bytes (docs/FORMAT.md, "Directory"): a summary page, then pages of
+// region entries, each page hashed in the summary, so the summary's hash is the pack's identity.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/base/hash.h"
+#include "common/base/ids.h"
+#include "common/base/result.h"
+#include "common/mesh/grid.h"
+
+namespace selvage {
+
+/// A part is the unit of addressing, hashing, caching and sending: one level of one region, or one bundle.
+enum class PartKind : std::uint8_t { Region = 0, Bundle = 1 };
+
+struct PartId {
+  PartKind kind = PartKind::Region;
+  RegionId region = 0;
+  std::uint8_t level = 0;  ///< 0 is the full resolution; always 0 for bundles
+  friend auto operator<=>(const PartId&, const PartId&) = default;
+};
+
+/// Where a part lies in the pack file. Size 0 means that there is no such part.
+struct PartRef {
+  std::uint64_t offset = 0;
+  std::uint32_t size = 0;
+  Hash hash;
+};
+
+struct LevelEntry {
+  PartRef part;
+  std::uint32_t vertices = 0;
+  std::uint32_t triangles = 0;  ///< interior triangles of the region at this level
+  float deviation = 0;          ///< model units from the full resolution, quantisation not counted
+};
+
+struct RegionEntry {
+  GridPoint box_min, box_max;               ///< of the region's vertices, inclusive, on the grid
+  std::vector<std::uint32_t> loop_lengths;  ///< full-resolution boundary loops in canonical order;
+                                            ///< for the loose region: one entry, its number of vertices
+  std::vector<RegionId> lower_neighbours;   ///< the other regions that this region's bundle touches, ascending
+  std::vector<LevelEntry> levels;           ///< finest first; empty only for a loose region without vertices
+  PartRef bundle;                           ///< all boundary triangles whose highest region is this one
+  std::uint32_t bundle_triangles = 0;
+
+  std::uint32_t boundary_vertices() const;
+};
+
+/// What became of the input, for people and for `compare`: counts of the file's own elements.
+struct SourceCounts {
+  std::uint32_t vertices = 0;              ///< in the file
+  std::uint32_t triangles = 0;             ///< in the file, after triangulation of polygons
+  std::uint32_t dropped_triangles = 0;     ///< with a repeated index
+  std::uint32_t unreferenced_vertices = 0;
+  std::uint32_t flipped_triangles = 0;     ///< turned for coding, turned back by the decoder
+  std::uint32_t cut_vertices = 0;          ///< copies made at non-manifold spots, welded again by the stitcher
+};
+
+struct Directory {
+  std::string name;
+  std::string units;  ///< as the user named them; empty if unknown
+  std::map<std::string, std::string> metadata;
+  Grid grid;
+  SourceCounts source;
+  std::uint32_t vertices = 0;            ///< of the stitched mesh
+  std::uint32_t triangles = 0;           ///< of the stitched mesh
+  std::uint32_t boundary_triangles = 0;  ///< of those, the ones in bundles
+  std::vector<RegionEntry> regions;      ///< by RegionId; [kLooseRegion] always exists
+
+  const PartRef* find(const PartId& id) const;  ///< null if there is no such part
+  std::uint32_t real_region_count() const { return static_cast<std::uint32_t>(regions.size()) - 1; }
+};
+
+/// The directory's bytes, and the length of the summary page at their front.
+struct DirectoryBytes {
+  std::vector<std::byte> bytes;
+  std::uint32_t summary_size = 0;
+};
+
+/// `directory.regions[*].levels[*].part` and `.bundle` need sizes and hashes; their offsets are assigned:
+/// parts follow the directory in region order, a region's levels coarsest first, then its bundle.
+DirectoryBytes write_directory(Directory& directory);
+
+/// Parses and checks hostile bytes: page hashes, counts, order, and that parts tile [end of directory, end of file).
+Result<Directory> parse_directory(std::span<const std::byte> bytes, std::uint32_t summary_size);
+
+/// The identity of the pack with this directory.
+Hash pack_id(std::span<const std::byte> directory_bytes, std::uint32_t summary_size);
+
+}  // namespace selvage

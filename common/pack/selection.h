@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+//
+// What a client may ask for, and the parts that answer it. The server, the offline `unpack` and any other
+// source of parts use this same function, so that they all mean the same.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/base/result.h"
+#include "common/pack/directory.h"
+
+namespace selvage {
+
+enum class Joins : std::uint8_t {
+  None = 0,     ///< regions alone
+  Closure = 1,  ///< bundles with at least one boundary triangle whose regions are all selected
+  All = 2,      ///< every bundle that touches a selected region, for clients that will ask for more later
+};
+
+/// An axis-aligned box in model units, inclusive.
+struct Box {
+  Vec3 min, max;
+};
+
+struct Selection {
+  enum class Kind : std::uint8_t { All, Ids, Box };
+  Kind kind = Kind::All;
+  std::vector<RegionId> ids;  ///< Kind::Ids; any order, repeats allowed
+  Box box;                    ///< Kind::Box: regions whose boxes meet it
+  Joins joins = Joins::Closure;
+  std::uint8_t level = 0;
+};
+
+/// The selected regions, ascending, without the loose region. NotFound names an id that is not in the model.
+Result<std::vector<RegionId>> select_regions(const Directory& directory, const Selection& selection);
+
+/// The parts that answer a selection, regions in ascending order, each followed by its bundle. The loose part
+/// comes first when a chosen bundle needs it.
+Result<std::vector<PartId>> select_parts(const Directory& directory, const Selection& selection);
+
+/// "3,5-7" -> {3, 5, 6, 7}. InvalidArgument names the piece that is wrong. At most 1,000,000 ids.
+Result<std::vector<RegionId>> parse_region_list(std::string_view text);
+
+/// "x0,y0,z0,x1,y1,z1".
+Result<Box> parse_box(std::string_view text);
+
+}  // namespace selvage
