@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+//
+// Which triangles become neighbours. `across[c]` is the corner that faces the same edge as corner c from the
+// other side, kNone where the edge is open. Until triangles are turned (orient.h) the two sides may run the
+// same way along their edge.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/base/ids.h"
+#include "common/mesh/edge_groups.h"
+
+namespace selvage {
+
+/// True if the triangles on both sides of the edge, as they are stored, run along it in opposite directions,
+/// that is, are oriented alike.
+bool runs_oppositely(std::span<const Triangle> triangles, CornerId side, CornerId other_side);
+
+/// Joins the two triangles at every edge that has exactly two, whichever way they run. All other edges are
+/// open.
+std::vector<CornerId> join_two_sided_edges(const EdgeGroups& edges, std::size_t corner_count);
+
+/// At every edge with three or more triangles, joins as many disjoint pairs as run oppositely once turned, in
+/// the order of the file; the rest stays open. Returns how many edges have three or more triangles.
+std::uint32_t pair_crowded_edges(const EdgeGroups& edges, std::span<const Triangle> triangles,
+                                 const std::vector<bool>& is_turned, std::span<CornerId> across);
+
+}  // namespace selvage
