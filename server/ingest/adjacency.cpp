@@ -3,14 +3,8 @@
 
 #include <algorithm>
 
-#include "common/mesh/corner_table.h"
-
 namespace selvage {
 namespace {
-
-VertexId tail_of(std::span<const Triangle> triangles, CornerId side) {
-  return triangles[triangle_of(side)][next(side) % 3];
-}
 
 void join(CornerId side, CornerId other_side, std::span<CornerId> across) {
   across[side] = other_side;
@@ -18,10 +12,6 @@ void join(CornerId side, CornerId other_side, std::span<CornerId> across) {
 }
 
 }  // namespace
-
-bool runs_oppositely(std::span<const Triangle> triangles, CornerId side, CornerId other_side) {
-  return tail_of(triangles, side) != tail_of(triangles, other_side);
-}
 
 std::vector<CornerId> join_two_sided_edges(const EdgeGroups& edges, std::size_t corner_count) {
   std::vector<CornerId> across(corner_count, kNone);

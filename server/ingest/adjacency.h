@@ -10,13 +10,17 @@
 #include <vector>
 
 #include "common/base/ids.h"
+#include "common/mesh/corner_table.h"
 #include "common/mesh/edge_groups.h"
 
 namespace selvage {
 
 /// True if the triangles on both sides of the edge, as they are stored, run along it in opposite directions,
 /// that is, are oriented alike.
-bool runs_oppositely(std::span<const Triangle> triangles, CornerId side, CornerId other_side);
+inline bool runs_oppositely(std::span<const Triangle> triangles, CornerId side, CornerId other_side) {
+  const auto tail_of = [&](CornerId c) { return triangles[triangle_of(c)][next(c) % 3]; };
+  return tail_of(side) != tail_of(other_side);
+}
 
 /// Joins the two triangles at every edge that has exactly two, whichever way they run. All other edges are
 /// open.

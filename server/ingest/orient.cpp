@@ -71,6 +71,15 @@ class PieceGrower {
   std::vector<CornerId> flips_;  // sides of the piece across which the file turns around
 };
 
+/// True of most files, and much cheaper to see than to establish.
+bool is_oriented(std::span<const Triangle> triangles, std::span<const CornerId> across) {
+  for (CornerId c = 0; c < across.size(); ++c) {
+    const CornerId beyond = across[c];
+    if (beyond != kNone && c < beyond && !runs_oppositely(triangles, c, beyond)) return false;
+  }
+  return true;
+}
+
 std::uint32_t cut_conflicts(std::span<const Triangle> triangles, const std::vector<bool>& is_turned,
                             std::span<CornerId> across) {
   std::uint32_t cut_edges = 0;
@@ -88,10 +97,13 @@ std::uint32_t cut_conflicts(std::span<const Triangle> triangles, const std::vect
 }  // namespace
 
 Orientation orient(std::span<const Triangle> triangles, std::span<CornerId> across) {
+  Orientation orientation;
+  if (is_oriented(triangles, across)) {
+    orientation.is_turned.resize(triangles.size());
+    return orientation;
+  }
   PieceGrower grower(triangles, across);
   for (TriangleId t = 0; t < triangles.size(); ++t) grower.orient_piece_of(t);
-
-  Orientation orientation;
   orientation.is_turned = grower.take_is_turned();
   for (bool is_turned : orientation.is_turned) orientation.turned_triangles += is_turned;
   orientation.cut_edges = cut_conflicts(triangles, orientation.is_turned, across);

@@ -2,6 +2,7 @@
 #include "server/ingest/repair.h"
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -78,25 +79,19 @@ std::vector<VertexId> flatten(const std::vector<Triangle>& triangles) {
   return vertex_of_corner;
 }
 
+/// Joins vertices along edges; every join that connects two pieces leaves one piece less.
 std::uint32_t count_components(const CornerTable& table) {
-  std::uint32_t components = 0;
-  std::vector<bool> is_reached(table.triangle_count());
-  std::vector<TriangleId> pending;
-  const auto reach = [&](TriangleId t) {
-    if (is_reached[t]) return;
-    is_reached[t] = true;
-    pending.push_back(t);
+  std::vector<VertexId> parent(table.vertex_count());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root_of = [&](VertexId v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
   };
-  for (TriangleId seed = 0; seed < table.triangle_count(); ++seed) {
-    components += !is_reached[seed];
-    reach(seed);
-    while (!pending.empty()) {
-      const TriangleId t = pending.back();
-      pending.pop_back();
-      for (CornerId c = 3 * t; c < 3 * t + 3; ++c) {
-        if (table.opposite[c] != kNone) reach(triangle_of(table.opposite[c]));
-      }
-    }
+  std::uint32_t components = table.vertex_count();
+  for (CornerId c = 0; c < table.corner_count(); ++c) {
+    const VertexId a = root_of(table.vertex(c)), b = root_of(table.vertex(next(c)));
+    components -= a != b;
+    parent[std::max(a, b)] = std::min(a, b);
   }
   return components;
 }

@@ -6,14 +6,22 @@
 namespace selvage {
 namespace {
 
-/// The most clockwise corner of an open fan, `c` itself in a closed one.
-CornerId first_of_fan(const CornerTable& table, CornerId c) {
-  for (CornerId at = c;;) {
-    const CornerId clockwise = table.swing_cw(at);
-    if (clockwise == kNone) return at;
-    if (clockwise == c) return c;
-    at = clockwise;
+/// Writes `vertex` to every corner of the fan around c. Returns the most clockwise corner of an open fan, c
+/// itself of a closed one.
+CornerId label_fan(CornerTable& table, CornerId c, VertexId vertex) {
+  CornerId at = c;
+  do {
+    table.vertex_of_corner[at] = vertex;
+    at = table.swing_ccw(at);
+  } while (at != kNone && at != c);
+  if (at == c) return c;
+
+  CornerId first = c;
+  for (at = table.swing_cw(c); at != kNone; at = table.swing_cw(at)) {
+    table.vertex_of_corner[at] = vertex;
+    first = at;
   }
+  return first;
 }
 
 }  // namespace
@@ -26,12 +34,8 @@ SplitTable split_fans(std::vector<VertexId> source_of_corner, std::vector<Corner
   for (CornerId c = 0; c < table.corner_count(); ++c) {
     if (table.vertex(c) != kNone) continue;
     const auto vertex = static_cast<VertexId>(split.source_of_vertex.size());
-    const CornerId first = first_of_fan(table, c);
+    table.corner_of_vertex.push_back(label_fan(table, c, vertex));
     split.source_of_vertex.push_back(source_of_corner[c]);
-    table.corner_of_vertex.push_back(first);
-    for (CornerId at = first; at != kNone && table.vertex(at) == kNone; at = table.swing_ccw(at)) {
-      table.vertex_of_corner[at] = vertex;
-    }
   }
   return split;
 }
