@@ -26,8 +26,14 @@ inline bool runs_oppositely(std::span<const Triangle> triangles, CornerId side, 
 /// open.
 std::vector<CornerId> join_two_sided_edges(const EdgeGroups& edges, std::size_t corner_count);
 
-/// At every edge with three or more triangles, joins as many disjoint pairs as run oppositely once turned, in
-/// the order of the file; the rest stays open. Returns how many edges have three or more triangles.
+/// At every edge with three or more triangles, joins as many disjoint pairs as run oppositely once turned,
+/// those first that connect two pieces; the rest stays open. Returns how many edges have three or more
+/// triangles.
+///
+/// Which triangles are paired is free, as the triangles come back the same; what counts is how many vertices
+/// are then split. Measured as copies of vertices on defects/office_chair, bun_zipper_res2, pickup_big: all
+/// such edges cut 416, 381, 541; paired within a piece first 210, 218, 257; in the order of the file 174, 92,
+/// 85; pieces connected first, as here, 64, 64, 72.
 std::uint32_t pair_crowded_edges(const EdgeGroups& edges, std::span<const Triangle> triangles,
                                  const std::vector<bool>& is_turned, std::span<CornerId> across);
 

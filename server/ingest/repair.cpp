@@ -2,10 +2,10 @@
 #include "server/ingest/repair.h"
 
 #include <algorithm>
-#include <numeric>
 #include <string>
 #include <utility>
 
+#include "common/base/disjoint_sets.h"
 #include "server/ingest/adjacency.h"
 #include "server/ingest/orient.h"
 #include "server/ingest/split_fans.h"
@@ -79,19 +79,11 @@ std::vector<VertexId> flatten(const std::vector<Triangle>& triangles) {
   return vertex_of_corner;
 }
 
-/// Joins vertices along edges; every join that connects two pieces leaves one piece less.
 std::uint32_t count_components(const CornerTable& table) {
-  std::vector<VertexId> parent(table.vertex_count());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root_of = [&](VertexId v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
+  DisjointSets pieces(table.vertex_count());
   std::uint32_t components = table.vertex_count();
   for (CornerId c = 0; c < table.corner_count(); ++c) {
-    const VertexId a = root_of(table.vertex(c)), b = root_of(table.vertex(next(c)));
-    components -= a != b;
-    parent[std::max(a, b)] = std::min(a, b);
+    components -= pieces.merge(table.vertex(c), table.vertex(next(c)));
   }
   return components;
 }

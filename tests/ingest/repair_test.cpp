@@ -126,6 +126,28 @@ TEST(Repair, LeavesAnEdgeOpenWhereAllTrianglesRunTheSameWay) {
   EXPECT_EQ(mesh.report.turned_triangles, 0u);
 }
 
+TEST(Repair, PairsAcrossPiecesSoThatNothingIsSplit) {  // two tetrahedra that share an edge
+  TriangleSoup soup = shapes::tetrahedron();
+  for (Triangle t : shapes::tetrahedron().triangles) {
+    for (std::uint32_t& v : t) v = v < 2 ? v : v + 2;
+    soup.triangles.push_back(t);
+  }
+  soup.positions.resize(6);
+  const auto mesh = repaired(soup);
+  EXPECT_EQ(mesh.report.non_manifold_edges, 1u);
+  EXPECT_EQ(mesh.report.boundary_edges, 0u);
+  EXPECT_EQ(mesh.report.components, 1u);
+  EXPECT_EQ(mesh.report.vertex_copies, 0u);
+}
+
+TEST(Repair, TakesABookOfManyPages) {  // one edge with 50000 triangles
+  std::vector<Triangle> pages;
+  for (std::uint32_t v = 2; v < 50002; ++v) pages.push_back(v % 2 ? Triangle{0, 1, v} : Triangle{v, 1, 0});
+  const auto mesh = repaired(soup_of(std::move(pages), 50002));
+  EXPECT_EQ(mesh.report.non_manifold_edges, 1u);
+  EXPECT_EQ(mesh.report.components, 25000u);
+}
+
 TEST(Repair, TurnsTheFewerTriangles) {
   TriangleSoup soup = shapes::sphere(2);
   for (std::size_t t : {3, 17, 18, 40}) turn(soup.triangles[t]);
