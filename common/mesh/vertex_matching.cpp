@@ -5,13 +5,14 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <deque>
 #include <limits>
+#include <unordered_map>
 
 namespace selvage {
 namespace {
 
 using Verdict = VertexMatching::Verdict;
+using Images = std::vector<VertexId>;  // of a cluster's vertices, in their order
 
 double max_norm(const Vec3& a, const Vec3& b) {
   return std::max({std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.z - b.z)});
@@ -57,7 +58,7 @@ class NearbyVertices {
 
  private:
   std::int64_t cell(double coordinate) const {
-    return static_cast<std::int64_t>(std::floor(coordinate / cell_));
+    return static_cast<std::int64_t>(std::clamp(std::floor(coordinate / cell_), -9e18, 9e18));
   }
   std::size_t bucket(std::uint64_t colour, const std::array<std::int64_t, 3>& at) const {
     std::uint64_t h = colour;
@@ -74,8 +75,7 @@ class NearbyVertices {
 /// One way to go on from a choice: up to two vertices of a get images.
 struct Option {
   std::array<VertexId, 2> vertices = {kNone, kNone}, images = {kNone, kNone};
-  std::uint32_t evictions = 0;  // tried in this order: rarely fought over first,
-  double distance = 0;          // then near first
+  double distance = 0;
 };
 
 struct Choice {
@@ -93,8 +93,7 @@ class Matcher {
     preimage_.assign(b.stars.vertex_count(), kNone);
     cluster_of_vertex_.assign(a.stars.vertex_count(), kNone);
     flooded_in_.assign(a.stars.vertex_count(), 0);
-    evictions_.assign(b.stars.vertex_count(), 0);
-    steps_left_ = 1'000'000 + 100 * std::int64_t{a.stars.triangle_count()};
+    steps_left_ = 20'000'000 + 100 * std::int64_t{a.stars.triangle_count()};
   }
 
   VertexMatching run() {
@@ -105,21 +104,18 @@ class Matcher {
 
  private:
   static double with_slack(const MatchSide& side, double tolerance) {
-    if (tolerance <= 0) return 0;
+    if (!(tolerance > 0)) return 0;
     double extent = 0;
     for (const Vec3& p : side.positions)
       extent = std::max({extent, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-    return tolerance * (1 + 1e-9) + extent * 4 * std::numeric_limits<double>::epsilon();
+    return std::min(tolerance, 1e300) * (1 + 1e-9) + extent * 4 * std::numeric_limits<double>::epsilon();
   }
 
   Verdict match_all() {
     if (!match_single_candidates() || !follow_all_matched()) return Verdict::Impossible;
     gather_clusters();
-    while (!waiting_.empty()) {
-      const std::uint32_t cluster = waiting_.front();
-      waiting_.pop_front();
+    for (std::uint32_t cluster = 0; cluster < clusters_.size(); ++cluster)
       if (!search(cluster)) return gave_up_ ? Verdict::Undecided : Verdict::Impossible;
-    }
     return Verdict::Found;
   }
 
@@ -223,7 +219,6 @@ class Matcher {
       const auto id = static_cast<std::uint32_t>(clusters_.size());
       clusters_.push_back(flood(v));
       for (VertexId w : clusters_.back()) cluster_of_vertex_[w] = id;
-      waiting_.push_back(id);
     }
   }
 
@@ -246,26 +241,123 @@ class Matcher {
 
   /// Finds images for a whole cluster, or says that there are none (or gives up, see gave_up_).
   bool search(std::uint32_t cluster) {
-    searched_ = cluster;
     const VertexId anchor = best_anchor(clusters_[cluster]);
     clusters_[cluster] = flood(anchor);  // so that each further vertex is met beside an earlier one
+    if (take_nearest_free_place(cluster) || take_place_from_others(cluster)) return true;
+    gave_up_ |= steps_left_ < 0;
+    return blame(anchor, true);
+  }
+
+  /// The nearest place counts every vertex, so after quantisation it is the one that the cluster came
+  /// from, or coincides with that, and nobody is left without.
+  bool take_nearest_free_place(std::uint32_t cluster) {
     const std::vector<VertexId>& vertices = clusters_[cluster];
+    double nearest = std::numeric_limits<double>::infinity();
+    Images best;
+    for (const Option& option : options_of_anchor(vertices[0])) {
+      if (option.distance >= nearest || (!best.empty() && vertices.size() > kLargeCluster)) break;
+      if (preimage_[option.images[0]] != kNone) continue;
+      Images images = try_place(vertices, option);
+      const double distance = distance_to(vertices, images);
+      if (!images.empty() && distance < nearest) nearest = distance, best = std::move(images);
+    }
+    assign(vertices, best);
+    return !best.empty();
+  }
+
+  /// An augmenting path [Berge 1957] over clusters and places, breadth first: somebody takes a free place,
+  /// whose old place somebody else takes, and so on back to `cluster`. That none exists is a proof.
+  bool take_place_from_others(std::uint32_t cluster) {
+    struct Wish {
+      std::uint32_t cluster;  // would take a place ...
+      Images images;          // ... which is here
+    };
+    std::unordered_map<std::uint32_t, Wish> wish_for_place_of;
+    std::vector<std::uint32_t> reached = {cluster};
+    for (std::size_t i = 0; i < reached.size(); ++i) {
+      const std::uint32_t seeker = reached[i];
+      for (const Option& option : options_of_anchor(clusters_[seeker][0])) {
+        const VertexId held_for = preimage_[option.images[0]];
+        const std::uint32_t holder = held_for == kNone ? kNone : cluster_of_vertex_[held_for];
+        if (holder == seeker || wish_for_place_of.contains(holder)) continue;
+        const Images of_seeker = lift(seeker), of_holder = lift(holder);
+        Images images = try_place(clusters_[seeker], option);
+        put_back(seeker, of_seeker);
+        put_back(holder, of_holder);
+        if (images.empty()) continue;
+        wish_for_place_of[holder] = {seeker, std::move(images)};
+        if (holder != kNone) {
+          reached.push_back(holder);
+          continue;
+        }
+        for (std::uint32_t granted = kNone; granted != cluster;) {
+          const Wish& wish = wish_for_place_of[granted];
+          lift(wish.cluster);
+          granted = wish.cluster;
+          assign(clusters_[granted], wish.images);
+        }
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// Takes a cluster's images away; put_back() with the returned ones undoes it. Both ignore kNone.
+  Images lift(std::uint32_t cluster) {
+    Images images;
+    if (cluster == kNone || image_[clusters_[cluster][0]] == kNone) return images;
+    for (VertexId v : clusters_[cluster]) {
+      images.push_back(image_[v]);
+      preimage_[image_[v]] = kNone;
+      image_[v] = kNone;
+    }
+    return images;
+  }
+
+  void put_back(std::uint32_t cluster, const Images& images) {
+    if (!images.empty()) assign(clusters_[cluster], images);
+  }
+
+  void assign(const std::vector<VertexId>& vertices, const Images& images) {
+    for (std::size_t i = 0; i < images.size(); ++i) {
+      image_[vertices[i]] = images[i];
+      preimage_[images[i]] = vertices[i];
+    }
+  }
+
+  /// The images that follow from one choice for the first vertex of an unmatched cluster; empty if there are
+  /// none. Changes nothing.
+  Images try_place(const std::vector<VertexId>& vertices, const Option& first) {
+    Images images;
     matched_.clear();
+    if (extend(vertices, first))
+      for (VertexId v : vertices) images.push_back(image_[v]);
+    undo_to(0);
+    return images;
+  }
+
+  double distance_to(const std::vector<VertexId>& vertices, const Images& images) const {
+    double largest = 0;
+    for (std::size_t i = 0; i < images.size(); ++i)
+      largest = std::max(largest, max_norm(a_.positions[vertices[i]], b_.positions[images[i]]));
+    return largest;
+  }
+
+  /// Finds images for a whole cluster, given one for its first vertex. Leaves no match behind if it fails.
+  bool extend(const std::vector<VertexId>& vertices, const Option& first) {
     std::vector<Choice> choices;
-    choices.push_back({.options = options_of_anchor(anchor)});
-    std::size_t reached = 0;
+    choices.push_back({{first}});
     while (!choices.empty()) {
       if (!take_next_option(choices.back())) {
         choices.pop_back();
         continue;
       }
-      reached = choices.back().reached_before;
+      std::size_t reached = choices.back().reached_before;
       Option open;
       if (!find_open_triangle(vertices, reached, open)) return true;
       choices.push_back({options_of_triangle(vertices[reached], open), 0, matched_.size(), reached});
     }
-    gave_up_ |= steps_left_ < 0;
-    return blame(anchor, true);
+    return false;
   }
 
   /// Tries the options of a choice in turn, each from the state before it, until one meets no contradiction.
@@ -281,24 +373,9 @@ class Matcher {
 
   bool take(const Option& option) {
     --steps_left_;
-    for (int k = 0; k < 2 && option.vertices[k] != kNone; ++k) {
-      evict(option.images[k]);
+    for (int k = 0; k < 2 && option.vertices[k] != kNone; ++k)
       if (!match(option.vertices[k], option.images[k])) return false;
-    }
     return true;
-  }
-
-  /// Frees the place `w` if another cluster holds it. That cluster waits for a search of its own.
-  void evict(VertexId w) {
-    if (preimage_[w] == kNone) return;
-    const std::uint32_t holder = cluster_of_vertex_[preimage_[w]];
-    if (holder == kNone || holder == searched_ || evictions_[w] == kMostEvictions) return;
-    ++evictions_[w];
-    for (VertexId v : clusters_[holder]) {
-      preimage_[image_[v]] = kNone;
-      image_[v] = kNone;
-    }
-    waiting_.push_back(holder);
   }
 
   void undo_to(std::size_t size) {
@@ -321,19 +398,18 @@ class Matcher {
     return best;
   }
 
+  /// The images the anchor may have, unless matched without alternative; nearest first.
   std::vector<Option> options_of_anchor(VertexId anchor) {
     std::vector<Option> options;
     const Vec3& p = a_.positions[anchor];
     const bool saw_all = nearby_.visit(p, a_.colours[anchor], reach_, kMostCandidates, [&](VertexId w) {
-      const VertexId holder = preimage_[w];
-      if (holder != kNone && cluster_of_vertex_[holder] == kNone) return true;  // matched without alternative
-      if (evictions_[w] == kMostEvictions) gave_up_ = true;
-      const std::uint32_t fought_over = evictions_[w] + (holder != kNone);
-      options.push_back({{anchor, kNone}, {w, kNone}, fought_over, max_norm(p, b_.positions[w])});
+      --steps_left_;
+      if (preimage_[w] == kNone || cluster_of_vertex_[preimage_[w]] != kNone)
+        options.push_back({{anchor, kNone}, {w, kNone}, max_norm(p, b_.positions[w])});
       return true;
     });
     if (!saw_all) gave_up_ = true;
-    sort_options(options);
+    std::ranges::stable_sort(options, {}, &Option::distance);
     return options;
   }
 
@@ -367,14 +443,8 @@ class Matcher {
       }
       options.push_back(option);
     }
-    sort_options(options);
+    std::ranges::stable_sort(options, {}, &Option::distance);
     return options;
-  }
-
-  static void sort_options(std::vector<Option>& options) {
-    std::ranges::stable_sort(options, [](const Option& l, const Option& r) {
-      return l.evictions != r.evictions ? l.evictions < r.evictions : l.distance < r.distance;
-    });
   }
 
   bool blame(VertexId v, bool has_candidates) {
@@ -383,8 +453,8 @@ class Matcher {
     return false;
   }
 
-  static constexpr std::uint32_t kMostEvictions = 64;
   static constexpr int kMostCandidates = 100'000;
+  static constexpr std::size_t kLargeCluster = 1000;  // takes the first place that fits, not the nearest
 
   const MatchSide& a_;
   const MatchSide& b_;
@@ -396,11 +466,8 @@ class Matcher {
 
   std::vector<std::vector<VertexId>> clusters_;
   std::vector<std::uint32_t> cluster_of_vertex_;  // kNone: matched without alternative
-  std::deque<std::uint32_t> waiting_;
-  std::uint32_t searched_ = kNone;  // the cluster being searched
   std::vector<std::uint32_t> flooded_in_;
   std::uint32_t flood_ = 0;
-  std::vector<std::uint32_t> evictions_;  // by vertex of b
   std::int64_t steps_left_;
   bool gave_up_ = false;
 

@@ -5,13 +5,12 @@
 //
 //   1. A vertex with one candidate (near enough, same colour) is matched: there is no other way.
 //   2. From matched vertices along edges: where both ends of an edge are matched and one triangle walks it,
-//   the
-//      third vertex is given. On a manifold this floods everything that touches a matched edge.
+//      the third vertex is given. On a manifold this floods everything that touches a matched edge.
 //   3. What is left falls into clusters (coincident components, sheets that meet in a point, symmetric pieces
 //      smaller than the tolerance). Each is searched: choose an image, follow stage 2, undo where it
-//      contradicts. A cluster that finds its place taken by another cluster drives that one out, to be
-//      searched anew, as augmenting paths do in bipartite matching; counting evictions keeps two from chasing
-//      each other.
+//      contradicts. Clusters take the nearest place that is free; where that leaves one without, an
+//      augmenting path of bipartite matching makes room. (Driving others out by nearness of one vertex
+//      alone failed on STL files read without welding, at grids coarser than their slivers.)
 #pragma once
 
 #include <cstdint>

@@ -2,6 +2,8 @@
 #include "common/mesh/same_mesh.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 #include <random>
 
@@ -177,8 +179,10 @@ TEST(SameMesh, HoldsForManyComponentsWithinTheTolerance) {
 
 TEST(SameMesh, HoldsWhateverTheTolerance) {
   const TriangleSoup soup = joined(shapes::sphere(3), shapes::grid(9, 9));
-  const MeshComparison result = compare_meshes(soup, shuffled(soup, 1), 1e6);
-  EXPECT_TRUE(result.same) << result.difference;
+  for (double tolerance : {0.0, 1e-300, 1e6, 1e308, std::numeric_limits<double>::infinity()}) {
+    const MeshComparison result = compare_meshes(soup, shuffled(soup, 1), tolerance);
+    EXPECT_TRUE(result.same) << tolerance << ": " << result.difference;
+  }
 }
 
 TEST(SameMesh, IgnoresUnusedVerticesAndTrianglesWithARepeatedIndex) {
