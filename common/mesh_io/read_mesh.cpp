@@ -11,9 +11,11 @@
 
 #include "common/mesh_io/obj.h"
 #include "common/mesh_io/off.h"
+#include "common/mesh_io/openmesh_io.h"
 #include "common/mesh_io/ply.h"
 #include "common/mesh_io/stl.h"
 #include "common/mesh_io/text_scanner.h"
+#include "common/mesh_io/wrl.h"
 
 namespace selvage {
 namespace {
@@ -24,11 +26,13 @@ struct Format {
   Result<MeshFile> (*parse)(std::span<const std::byte>);
 };
 
-constexpr std::array<Format, 4> kFormats = {{
+constexpr std::array<Format, 6> kFormats = {{
     {".ply", "PLY", parse_ply},
     {".obj", "OBJ", parse_obj},
     {".off", "OFF", parse_off},
     {".stl", "STL", parse_stl},
+    {".wrl", "WRL", parse_wrl},
+    {".om", "OM", parse_om},
 }};
 
 const Format* format_of(const std::filesystem::path& path) {

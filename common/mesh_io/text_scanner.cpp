@@ -114,12 +114,14 @@ bool TextScanner::coordinate(double& value) { return number(value); }
 bool TextScanner::coordinate(float& value) { return number(value); }
 bool TextScanner::integer(std::int64_t& value) { return number(value); }
 
-bool TextScanner::skip_past(char last) {
-  while (at_ != end_ && *at_ != last) {
-    if (class_of(*at_) == Class::LineEnd)
+bool TextScanner::skip_string() {
+  while (at_ != end_ && *at_ != '"') {
+    if (*at_ == '\\' && end_ - at_ > 1 && at_[1] == '"') ++at_;
+    if (class_of(*at_) == Class::LineEnd) {
       next_line();
-    else
+    } else {
       ++at_;
+    }
   }
   if (at_ == end_) return false;
   ++at_;

@@ -42,8 +42,9 @@ class TextScanner {
   bool coordinate(float& value);
   bool integer(std::int64_t& value);
 
-  /// Up to and over the next `last`, even across lines; false when there is none.
-  bool skip_past(char last);
+  /// From inside a quoted string over its closing '"', even across lines; a backslash protects the character
+  /// after it.
+  bool skip_string();
 
   std::uint64_t line() const { return line_; }
   std::size_t offset() const { return static_cast<std::size_t>(at_ - begin_); }
