@@ -2,13 +2,14 @@
 //
 // Ingest and client together, without a network: nothing may be lost.
 #include <algorithm>
+#include <map>
 #include <random>
 
 #include <gtest/gtest.h>
 
 #include "common/mesh/same_mesh.h"
 #include "server/ingest/ingest.h"
-#include "tests/support/random_meshes.h"
+#include "tests/support/labelled_pack.h"
 #include "tests/support/shapes.h"
 #include "tests/support/unpack.h"
 
@@ -40,9 +41,11 @@ TriangleSoup random_soup(std::uint32_t seed) {
   std::mt19937 random(seed);
   TriangleSoup soup;
   const std::uint32_t vertices = 4 + random() % 12;
-  for (std::uint32_t v = 0; v < vertices; ++v) soup.positions.push_back({double(random() % 64), double(random() % 64), double(random() % 64)});
+  for (std::uint32_t v = 0; v < vertices; ++v)
+    soup.positions.push_back({double(random() % 64), double(random() % 64), double(random() % 64)});
   for (int t = 0, count = 1 + static_cast<int>(random() % 40); t < count; ++t) {
-    soup.triangles.push_back({static_cast<std::uint32_t>(random() % vertices), static_cast<std::uint32_t>(random() % vertices),
+    soup.triangles.push_back({static_cast<std::uint32_t>(random() % vertices),
+                              static_cast<std::uint32_t>(random() % vertices),
                               static_cast<std::uint32_t>(random() % vertices)});
   }
   soup.triangles.push_back({0, 1, 2});
@@ -50,8 +53,10 @@ TriangleSoup random_soup(std::uint32_t seed) {
 }
 
 TEST(PackUnpack, RestoresHandMadeShapes) {
-  for (const TriangleSoup& soup : {shapes::triangle(), shapes::tetrahedron(), shapes::grid_with_holes(30, 30, 5), shapes::torus(20, 60),
-                                   shapes::sphere(5), shapes::open_cylinder(30, 40), shapes::chain_of_tori(8), shapes::mobius_strip(30)}) {
+  for (const TriangleSoup& soup :
+       {shapes::triangle(), shapes::tetrahedron(), shapes::grid_with_holes(30, 30, 5), shapes::torus(20, 60),
+        shapes::sphere(5), shapes::open_cylinder(30, 40), shapes::chain_of_tori(8),
+        shapes::mobius_strip(30)}) {
     SCOPED_TRACE(soup.triangles.size());
     expect_restored(soup);
   }
@@ -73,34 +78,57 @@ TEST(PackUnpack, DoesNotDependOnTheNumberOfThreads) {
   EXPECT_EQ(one->pack, three->pack);
 }
 
-TEST(PackUnpack, GivesExactlyTheTrianglesBetweenSelectedRegions) {
-  const TriangleSoup soup = shapes::chain_of_tori(12);
-  const auto pack = pack_of(soup, {.segment = {.min_region_vertices = 10}});
-  const auto whole = unpack(*pack);
-  const std::uint32_t regions = pack->directory().real_region_count();
-  ASSERT_GT(regions, 2u);
-  std::mt19937 random(1);
-  for (int round = 0; round < 20; ++round) {
-    Selection selection{.kind = Selection::Kind::Ids};
-    for (RegionId id = 1; id <= regions; ++id) {
-      if (random() % 2 == 0) selection.ids.push_back(id);
-    }
-    const auto some = unpack(*pack, selection);
-    ASSERT_TRUE(some) << some.error().message;
-    selection.joins = Joins::None;
-    const auto bare = unpack(*pack, selection);
-    std::size_t interior = 0;
-    for (RegionId id : selection.ids) interior += pack->directory().regions[id].levels[0].triangles;
-    EXPECT_EQ(bare->soup.triangles.size(), interior);
-    EXPECT_GE(some->soup.triangles.size(), interior);
-    if (selection.ids.size() == regions) {
-      EXPECT_EQ(some->soup.triangles.size(), whole->soup.triangles.size());
+TEST(PackUnpack, RestoresAnyLabelling) {
+  std::mt19937 random(5);
+  for (const TriangleSoup& soup : {shapes::torus(20, 60), shapes::sphere(4),
+                                   shapes::grid_with_holes(20, 20, 4), shapes::mobius_strip(40)}) {
+    for (std::uint32_t labels : {2u, 5u, 1000u}) {
+      std::vector<std::uint32_t> label_of_vertex;
+      for (std::size_t v = 0; v < soup.positions.size(); ++v) label_of_vertex.push_back(random() % labels);
+      const auto pack = Pack::from_bytes(labelled_pack(soup, label_of_vertex, 14)).value();
+      const auto stitched = unpack(*pack);
+      ASSERT_TRUE(stitched) << stitched.error().message;
+      const MeshComparison comparison = compare_meshes(soup, stitched->soup, pack->directory().grid.step / 2);
+      EXPECT_TRUE(comparison.same) << comparison.difference;
     }
   }
 }
 
+/// The triangles of the whole that lie between the given regions, which is what a selection with joins must
+/// give.
+TEST(PackUnpack, GivesExactlyTheTrianglesBetweenSelectedRegions) {
+  const TriangleSoup soup = shapes::torus(30, 90);
+  const auto pack = Pack::from_bytes(labelled_pack(soup, cube_labels(soup, 1.3), 16)).value();
+  const Directory& directory = pack->directory();
+  ASSERT_GT(directory.real_region_count(), 10u);
+  std::mt19937 random(1);
+  for (int round = 0; round < 20; ++round) {
+    Selection selection{.kind = Selection::Kind::Ids};
+    for (RegionId id = 1; id <= directory.real_region_count(); ++id) {
+      if (random() % 2 == 0) selection.ids.push_back(id);
+    }
+    const auto stitched = unpack(*pack, selection);
+    ASSERT_TRUE(stitched) << stitched.error().message;
+    // A vertex of the stitched part names its counterpart in the input, as no two of the input fall together.
+    std::map<std::array<std::int32_t, 3>, VertexId> input_vertex;
+    const auto key = [&](const Vec3& p) {
+      const GridPoint g = directory.grid.quantise(p);
+      return std::array{g.x, g.y, g.z};
+    };
+    for (VertexId v = 0; v < soup.positions.size(); ++v) input_vertex[key(soup.positions[v])] = v;
+    ASSERT_EQ(input_vertex.size(), soup.positions.size());
+    std::vector<bool> is_selected(soup.positions.size(), false);
+    for (const Vec3& p : stitched->soup.positions) is_selected[input_vertex.at(key(p))] = true;
+    std::size_t expected = 0;
+    for (const auto& [a, b, c] : soup.triangles)
+      expected += is_selected[a] && is_selected[b] && is_selected[c];
+    EXPECT_EQ(stitched->soup.triangles.size(), expected);
+  }
+}
+
 TEST(PackUnpack, StopsWhenToldTo) {
-  const auto model = ingest(shapes::torus(20, 20), {}, serial_for(), [](const std::string& stage, double) { return stage != "segment"; });
+  const auto model = ingest(shapes::torus(20, 20), {}, serial_for(),
+                            [](const std::string& stage, double) { return stage != "segment"; });
   ASSERT_FALSE(model);
   EXPECT_EQ(model.error().code, ErrorCode::Cancelled);
 }
