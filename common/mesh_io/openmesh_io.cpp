@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <mutex>
 #include <sstream>
 #include <stdexcept>
@@ -13,6 +12,7 @@
 #include <OpenMesh/Core/IO/importer/ImporterT.hh>
 #include <OpenMesh/Core/IO/reader/OMReader.hh>
 #include <OpenMesh/Core/IO/writer/OMWriter.hh>
+#include <OpenMesh/Core/System/omstream.hh>
 
 #include "common/base/ids.h"
 #include "common/coding/byte_io.h"
@@ -23,11 +23,29 @@
 namespace selvage {
 namespace {
 
-/// OpenMesh's readers and writers keep their state in global objects.
-std::mutex& openmesh_mutex() {
-  static std::mutex mutex;
-  return mutex;
-}
+/// While it lives, this thread has OpenMesh's readers and writers, which are global objects with state, to
+/// itself, and OpenMesh prints nothing: what it has to say becomes an error, and "#bytes written" is nobody's
+/// business.
+class QuietOpenMesh {
+ public:
+  QuietOpenMesh() : lock_(mutex()) {
+    omlog().disable();
+    omerr().disable();
+  }
+  ~QuietOpenMesh() {
+    omlog().enable();
+    omerr().enable();
+  }
+  QuietOpenMesh(const QuietOpenMesh&) = delete;
+  QuietOpenMesh& operator=(const QuietOpenMesh&) = delete;
+
+ private:
+  static std::mutex& mutex() {
+    static std::mutex instance;
+    return instance;
+  }
+  std::lock_guard<std::mutex> lock_;
+};
 
 /// 'O' 'M' | u8 kind: T, Q or P | u8 version | u32 vertices | u32 faces | u32 edges
 struct OmHeader {
@@ -134,7 +152,7 @@ class Recorder final : public OpenMesh::IO::ImporterT<OpenMeshTriMesh> {
 
 /// Whether OpenMesh liked the file and read to its end, but not beyond.
 bool record(std::span<const std::byte> bytes, Recorder& recorder) {
-  const std::lock_guard lock(openmesh_mutex());
+  const QuietOpenMesh quiet;
   std::istringstream in{std::string(as_text(bytes))};
   OpenMesh::IO::Options options = OpenMesh::IO::Options::Binary;
   try {
@@ -206,7 +224,7 @@ Result<std::string> format_om(const TriangleSoup& soup) {
   if (!mesh) return forward_error(mesh);
   OpenMesh::IO::ExporterT<OpenMeshTriMesh> exporter(*mesh);
   std::ostringstream out;
-  const std::lock_guard lock(openmesh_mutex());
+  const QuietOpenMesh quiet;
   if (!OpenMesh::IO::OMWriter().write(out, exporter, OpenMesh::IO::Options::Binary)) {
     return fail(ErrorCode::Io, "OpenMesh could not write the mesh");
   }
