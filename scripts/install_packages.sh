@@ -53,10 +53,10 @@ if ((${#missing[@]} == 0)); then
   exit 0
 fi
 
-printf 'setup: installing %d missing packages: %s\n' "${#missing[@]}" "${missing[*]}"
 find_root
+printf 'setup: installing %d missing packages: %s\n' "${#missing[@]}" "${missing[*]}"
 # Waits for another apt (an automatic update, say) to finish rather than failing on its lock.
-apt=("${become_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300 -qq)
+apt=("${become_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300 -o Dpkg::Use-Pty=0 -qq)
 "${apt[@]}" update || die "apt-get update failed: see above. Is the network reachable?"
 "${apt[@]}" install --yes --no-install-recommends "${missing[@]}" ||
   die "apt-get install failed: see above. The names are those of Debian 12 (bookworm)."

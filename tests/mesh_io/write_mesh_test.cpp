@@ -71,7 +71,7 @@ class SmallDisk {
   void (*handler_)(int);
 };
 
-/// The volatile is for g++ 12, which at -O3 folds double -> float -> double of neighbouring values away.
+/// The volatile is for g++ 12, which from -O2 on folds double -> float -> double of neighbouring values away.
 double as_float(double value) {
   const volatile float rounded = static_cast<float>(value);
   return rounded;
