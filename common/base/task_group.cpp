@@ -15,10 +15,10 @@ struct TaskGroup::Impl {
 
 TaskGroup::TaskGroup(unsigned threads) {
   if (threads == 1) return;
-  // The caller only hands out work, so it counts for none of the threads.
+  // The caller takes a place too: it hands out work first and helps once it waits.
   const int concurrency = threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads);
   impl_ = std::make_unique<Impl>();
-  impl_->arena.initialize(concurrency, 0);
+  impl_->arena.initialize(concurrency, 1);
 }
 
 TaskGroup::~TaskGroup() {
