@@ -93,7 +93,9 @@ Result<void> announce(const Options& options, const HostPort& address) {
 /// Counts the signals that ask us to stop, and passes them on.
 class StopSignals {
  public:
-  StopSignals(asio::io_context& io, Listener& listener) : signals_(io, SIGINT, SIGTERM), listener_(listener) {
+  /// On the listener's strand: otherwise the listener could be gone, and cancel() over, before wait() comes round.
+  explicit StopSignals(Listener& listener)
+      : signals_(listener.executor(), SIGINT, SIGTERM), listener_(listener) {
     wait();
   }
   int count() const { return count_; }
@@ -134,7 +136,7 @@ Result<int> serve(const Options& options) {
   asio::thread_pool workers(1);
   auto listener = Listener::bind(io, *address, **store, workers.get_executor(), options.limits);
   if (!listener) return forward_error(listener);
-  StopSignals signals(io, **listener);
+  StopSignals signals(**listener);
   auto announced = announce(options, (*listener)->address());
   if (!announced) return forward_error(announced, "--port-file");
 
