@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <ostream>
 
 #include <gtest/gtest.h>
 
@@ -60,6 +61,8 @@ struct Expected {
   bool is_smooth;
 };
 
+void PrintTo(const Expected& e, std::ostream* out) { *out << e.name; }
+
 constexpr Expected kExpected[] = {{"waterneck", 0, 1, true},
                                   {"bracket", -12, 1, false},
                                   {"assembly", 0, 19, false},
@@ -98,11 +101,6 @@ TEST_P(Samples, ComeCloseToTheNumberOfTrianglesAskedFor) {
   }
 }
 
-TEST_P(Samples, HaveNoSlivers) {
-  if (!GetParam().is_smooth) GTEST_SKIP() << "CAD triangles are thin by nature";
-  EXPECT_GT(smallest_angle_degrees(*make_sample(GetParam().name, 20'000)), 12);
-}
-
 TEST_P(Samples, HaveNoTrianglesWithoutArea) {
   const auto soup = make_sample(GetParam().name);
   for (const auto& [a, b, c] : soup->triangles) {
@@ -113,6 +111,11 @@ TEST_P(Samples, HaveNoTrianglesWithoutArea) {
 
 INSTANTIATE_TEST_SUITE_P(All, Samples, testing::ValuesIn(kExpected),
                          [](const auto& p) { return p.param.name; });
+
+TEST(SmoothSamples, HaveNoSlivers) {  // CAD triangles are thin by nature
+  for (const char* name : {"waterneck", "dumbbell"})
+    EXPECT_GT(smallest_angle_degrees(*make_sample(name, 20'000)), 12) << name;
+}
 
 TEST(SampleNames, CoverAllExpectations) {
   std::vector<std::string> expected;
