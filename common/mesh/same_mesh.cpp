@@ -26,6 +26,11 @@ std::string count_difference(const char* what, std::uint32_t a, std::uint32_t b)
   return "the first mesh has " + std::to_string(a) + " " + what + ", the second " + std::to_string(b);
 }
 
+std::string star_difference(const TriangleSoup& a, VertexId v) {
+  return "the triangles around " + describe(v, a.positions[v]) +
+         " of the first mesh are not found in the second";
+}
+
 /// The colours of the vertices in use, sorted.
 Colours sorted_colours(const VertexStars& stars, const Colours& colours) {
   Colours used;
@@ -89,12 +94,11 @@ std::string describe_failure(const TriangleSoup& a, const VertexMatching& matchi
   if (matching.verdict == VertexMatching::Verdict::Undecided)
     return "gave up looking for a counterpart of " + where +
            ": too many vertices are alike within the tolerance";
-  if (matching.culprit_has_candidates)
-    return "the triangles around " + where + " are not found in the second";
+  if (matching.culprit_has_candidates) return star_difference(a, v);
   char reach[40];
   std::snprintf(reach, sizeof reach, "%.9g", tolerance);
-  return std::string("no vertex of the second mesh with like surroundings lies within ") + reach + " of " +
-         where;
+  return "no vertex of the second mesh within " + std::string(reach) + " of " + where +
+         " has like surroundings";
 }
 
 }  // namespace
@@ -118,9 +122,7 @@ MeshComparison compare_meshes(const TriangleSoup& a, const TriangleSoup& b, doub
 
   Colours colours_a, colours_b;
   const VertexId odd = colour_both(stars_a, stars_b, colours_a, colours_b);
-  if (odd != kNone)
-    return differs("the triangles around " + describe(odd, a.positions[odd]) +
-                   " of the first mesh are not found in the second");
+  if (odd != kNone) return differs(star_difference(a, odd));
 
   const VertexMatching matching =
       match_vertices({a.positions, stars_a, colours_a}, {b.positions, stars_b, colours_b}, tolerance);
@@ -128,9 +130,7 @@ MeshComparison compare_meshes(const TriangleSoup& a, const TriangleSoup& b, doub
   if (matching.verdict != VertexMatching::Verdict::Found)
     return differs(describe_failure(a, matching, tolerance));
   const VertexId wrong = first_wrong_star(stars_a, stars_b, matching.image_of_vertex);
-  if (wrong != kNone)
-    return differs("the triangles around " + describe(wrong, a.positions[wrong]) +
-                   " of the first mesh are not found in the second");
+  if (wrong != kNone) return differs(star_difference(a, wrong));
 
   result.same = true;
   result.largest_difference = largest_distance(a, b, matching.image_of_vertex);

@@ -280,6 +280,7 @@ class Matcher {
         const VertexId held_for = preimage_[option.images[0]];
         const std::uint32_t holder = held_for == kNone ? kNone : cluster_of_vertex_[held_for];
         if (holder == seeker || wish_for_place_of.contains(holder)) continue;
+        if (steps_left_ < 0) return false;
         const Images of_seeker = lift(seeker), of_holder = lift(holder);
         Images images = try_place(clusters_[seeker], option);
         put_back(seeker, of_seeker);
@@ -306,6 +307,7 @@ class Matcher {
   Images lift(std::uint32_t cluster) {
     Images images;
     if (cluster == kNone || image_[clusters_[cluster][0]] == kNone) return images;
+    steps_left_ -= static_cast<std::int64_t>(clusters_[cluster].size());
     for (VertexId v : clusters_[cluster]) {
       images.push_back(image_[v]);
       preimage_[image_[v]] = kNone;

@@ -109,7 +109,7 @@ class Renderer {
       points_.push_back({q.x * samples_, q.y * samples_, q.nearness});
     }
     seen_ = rasterise(points_, scene.triangles, camera.width * samples_, camera.height * samples_);
-    is_inside_out_ = shows_mostly_backs();
+    is_inside_out_ = shows_only_backs();
     border_offsets_ = disc(options.border_px * samples_ / 2);
   }
 
@@ -159,12 +159,16 @@ class Renderer {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) > 0;  // y points down
   }
 
-  /// Files whose triangles all face inwards are common; then backs are what one should see.
-  bool shows_mostly_backs() const {
-    std::int64_t balance = 0;
-    for (TriangleId t : seen_.triangle)
-      if (t != kNone) balance += is_back(t) ? 1 : -1;
-    return balance > 0;
+  /// Files whose triangles all face inwards are common; then backs are what one should see. A part of
+  /// a model may well show more of its inside than of its outside, so nearly all has to be backs.
+  bool shows_only_backs() const {
+    std::int64_t seen = 0, backs = 0;
+    for (TriangleId t : seen_.triangle) {
+      if (t == kNone) continue;
+      ++seen;
+      backs += is_back(t);
+    }
+    return backs * 20 > seen * 19;
   }
 
   Rgb colour_of(TriangleId t) const {

@@ -25,7 +25,7 @@ struct Scene {
 struct RenderOptions {
   Rgb background = kWhite;
   int samples = 3;             ///< per pixel and axis; edges get smoother and time grows with its square
-  double crease_degrees = 35;  ///< surfaces that meet at less than this are shaded as one; 0 shows facets
+  double crease_degrees = 45;  ///< surfaces that meet at less than this are shaded as one; 0 shows facets
   double border_px = 0;        ///< black lines between triangles of different colour; 0: none
   double wire_px = 0;          ///< dark lines along triangle edges; 0: none
   double label_px = 0;         ///< height of region numbers; they shrink where room is short; 0: none

@@ -65,6 +65,19 @@ TEST(Render, ShadesAnInsideOutMeshLikeAnother) {
   EXPECT_EQ(picture(turned, {}).at(60, 50), picture(shapes::sphere(3), {}).at(60, 50));
 }
 
+TEST(Render, ShowsTheInsideOfAnOpenPartDarker) {
+  TriangleSoup dish = shapes::sphere(4);  // the lower half, seen from above: more inside than outside
+  std::erase_if(dish.triangles, [&](const Triangle& t) {
+    return std::ranges::any_of(t, [&](std::uint32_t v) { return dish.positions[v].y > 0; });
+  });
+  const Camera camera = fit_camera(shapes::sphere(4).positions, {.elevation_degrees = 45}, 100, 100);
+  const Image inside = render({dish.positions, dish.triangles}, camera);
+  for (Triangle& t : dish.triangles) std::swap(t[0], t[1]);
+  const Image outside = render({dish.positions, dish.triangles}, camera);
+  EXPECT_LT(inside.at(50, 40).g + 40, outside.at(50, 40).g);
+  EXPECT_GT(inside.at(50, 85).g, outside.at(50, 85).g + 20);
+}
+
 TEST(Render, WritesLabelsWhereAskedAndThereIsRoom) {
   const TriangleSoup soup = shapes::grid(2, 2);
   const std::vector<RegionId> regions(8, 1), nameless(8, kNone);
