@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "common/base/result.h"
+#include "common/codec/bundle.h"
+
+namespace selvage {
+
+/// Decodes one bundle. Needs only the directory: which regions it touches, their loop lengths, and how many
+/// triangles it holds; not the regions themselves. Safe on hostile input: every corner it gives is within its
+/// region's loops, every triangle has three different corners and touches the bundle's own region.
+Result<std::vector<BoundaryTriangle>> decode_bundle(std::span<const std::byte> bytes,
+                                                    const BundleTopology& topology,
+                                                    std::uint32_t triangle_count);
+
+}  // namespace selvage

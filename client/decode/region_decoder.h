@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "common/base/result.h"
+#include "common/codec/region_mesh.h"
+
+namespace selvage {
+
+/// What the directory promised about a region; the decoder gives exactly that or an error.
+struct DecodeLimits {
+  std::uint32_t vertices = 0;
+  std::uint32_t triangles = 0;
+};
+
+/// Decodes one region from `bytes`. Needs nothing from other regions. Safe on hostile input: reads only
+/// `bytes`, allocates at most a fixed multiple of what `expected` and the number of bytes allow
+/// (docs/FORMAT.md, "Limits"). Boundary vertices come out in encoder order, which is the order that bundles
+/// refer to.
+Result<RegionMesh> decode_region(std::span<const std::byte> bytes, const DecodeLimits& expected);
+
+}  // namespace selvage

@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: MIT
+#include "common/pack/directory.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "common/coding/byte_io.h"
+#include "common/pack/pack.h"
+
+namespace selvage {
+namespace {
+
+constexpr std::uint32_t kRegionsPerPage = 256;
+constexpr std::uint32_t kMaxLevels = 16;
+constexpr std::size_t kMaxTextLength = 4096;
+
+std::uint32_t page_count(std::uint32_t regions) { return (regions + kRegionsPerPage - 1) / kRegionsPerPage; }
+
+void write_hash(ByteWriter& out, const Hash& hash) { out.append(std::as_bytes(std::span(hash.bytes))); }
+
+Hash read_hash(ByteReader& in) {
+  Hash hash;
+  const auto bytes = in.take(Hash::kSize);
+  std::transform(bytes.begin(), bytes.end(), hash.bytes.begin(),
+                 [](std::byte b) { return std::to_integer<std::uint8_t>(b); });
+  return hash;
+}
+
+void write_box(ByteWriter& out, const GridPoint& low, const GridPoint& high) {
+  for (int axis = 0; axis < 3; ++axis) out.varint(static_cast<std::uint32_t>(low[axis]));
+  for (int axis = 0; axis < 3; ++axis) out.varint(static_cast<std::uint32_t>(high[axis] - low[axis]));
+}
+
+void read_box(ByteReader& in, const Grid& grid, GridPoint& low, GridPoint& high) {
+  const auto last = static_cast<std::uint32_t>(grid.max_coordinate());
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::uint32_t at = in.varint32();
+    if (at > last) in.set_failed();
+    low[axis] = static_cast<std::int32_t>(at);
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::uint32_t extent = in.varint32();
+    if (extent > last - static_cast<std::uint32_t>(low[axis])) in.set_failed();
+    high[axis] = low[axis] + static_cast<std::int32_t>(extent);
+  }
+}
+
+// One region entry: box; loops; levels {vertices, triangles, deviation, size, hash}; bundle {size [,
+// triangles, neighbours as distances down from the region's own number, hash]}.
+void write_entry(ByteWriter& out, RegionId id, const RegionEntry& entry) {
+  write_box(out, entry.box_min, entry.box_max);
+  out.varint(entry.loop_lengths.size());
+  for (std::uint32_t length : entry.loop_lengths) out.varint(length);
+  out.varint(entry.levels.size());
+  for (const LevelEntry& level : entry.levels) {
+    out.varint(level.vertices);
+    out.varint(level.triangles);
+    if (&level != &entry.levels.front()) out.f32(level.deviation);
+    out.varint(level.part.size);
+    write_hash(out, level.part.hash);
+  }
+  out.varint(entry.bundle.size);
+  if (entry.bundle.size == 0) return;
+  out.varint(entry.bundle_triangles);
+  out.varint(entry.lower_neighbours.size());
+  RegionId above = id;
+  for (auto it = entry.lower_neighbours.rbegin(); it != entry.lower_neighbours.rend(); ++it) {
+    out.varint(above - *it - 1);
+    above = *it;
+  }
+  write_hash(out, entry.bundle.hash);
+}
+
+void read_levels(ByteReader& in, RegionEntry& entry) {
+  const std::uint32_t count = in.count(2);
+  if (count > kMaxLevels) return in.set_failed();
+  entry.levels.resize(count);
+  for (LevelEntry& level : entry.levels) {
+    level.vertices = in.varint32();
+    level.triangles = in.varint32();
+    if (&level != &entry.levels.front()) level.deviation = in.f32();
+    level.part.size = in.varint32();
+    level.part.hash = read_hash(in);
+    if (level.part.size == 0 || level.vertices == 0 || !(level.deviation >= 0)) in.set_failed();
+  }
+}
+
+void read_bundle(ByteReader& in, RegionId id, RegionEntry& entry) {
+  entry.bundle.size = in.varint32();
+  if (entry.bundle.size == 0) return;
+  entry.bundle_triangles = in.varint32();
+  entry.lower_neighbours.resize(in.count(1));
+  RegionId above = id;
+  for (auto it = entry.lower_neighbours.rbegin(); it != entry.lower_neighbours.rend(); ++it) {
+    const std::uint32_t step = in.varint32();
+    if (step >= above) return in.set_failed();
+    *it = above = above - step - 1;
+  }
+  entry.bundle.hash = read_hash(in);
+  if (entry.bundle_triangles == 0) in.set_failed();
+}
+
+RegionEntry read_entry(ByteReader& in, RegionId id, const Grid& grid) {
+  RegionEntry entry;
+  read_box(in, grid, entry.box_min, entry.box_max);
+  entry.loop_lengths.resize(in.count(1));
+  for (std::uint32_t& length : entry.loop_lengths) length = in.varint32();
+  read_levels(in, entry);
+  read_bundle(in, id, entry);
+  if (!in.ok()) return entry;
+  const std::uint64_t on_loops =
+      std::accumulate(entry.loop_lengths.begin(), entry.loop_lengths.end(), std::uint64_t{0});
+  const std::uint64_t vertices = entry.levels.empty() ? 0 : entry.levels[0].vertices;
+  if (on_loops > vertices || (id != kLooseRegion && entry.levels.empty())) in.set_failed();
+  if (id == kLooseRegion && on_loops != vertices) in.set_failed();
+  return entry;
+}
+
+void write_grid(ByteWriter& out, const Grid& grid) {
+  out.u8(static_cast<std::uint8_t>(grid.bits));
+  for (int axis = 0; axis < 3; ++axis) out.f64(grid.origin[axis]);
+  out.f64(grid.step);
+}
+
+Grid read_grid(ByteReader& in) {
+  Grid grid;
+  grid.bits = in.u8();
+  for (int axis = 0; axis < 3; ++axis) grid.origin[axis] = in.f64();
+  grid.step = in.f64();
+  const bool is_sound = grid.bits >= kMinGridBits && grid.bits <= kMaxGridBits &&
+                        std::isfinite(grid.origin.x) && std::isfinite(grid.origin.y) &&
+                        std::isfinite(grid.origin.z) && std::isfinite(grid.step) && grid.step > 0;
+  if (!is_sound) in.set_failed();
+  return grid;
+}
+
+template <class Visit>
+void visit_source_counts(SourceCounts& source, Visit visit) {
+  for (std::uint32_t* count :
+       {&source.vertices, &source.triangles, &source.dropped_triangles, &source.unreferenced_vertices,
+        &source.flipped_triangles, &source.cut_vertices}) {
+    visit(*count);
+  }
+}
+
+std::uint64_t parts_size(const RegionEntry& entry) {
+  std::uint64_t size = entry.bundle.size;
+  for (const LevelEntry& level : entry.levels) size += level.part.size;
+  return size;
+}
+
+struct Page {
+  Bytes bytes;
+  std::uint64_t parts_size = 0;
+  GridPoint low, high;
+};
+
+Page write_page(const Directory& directory, std::uint32_t first) {
+  const auto last = std::min<std::size_t>(first + kRegionsPerPage, directory.regions.size());
+  Page page;
+  ByteWriter out;
+  bool is_first = true;
+  for (RegionId id = first; id < last; ++id) {
+    const RegionEntry& entry = directory.regions[id];
+    write_entry(out, id, entry);
+    page.parts_size += parts_size(entry);
+    if (entry.levels.empty()) continue;
+    for (int axis = 0; axis < 3; ++axis) {
+      page.low[axis] = is_first ? entry.box_min[axis] : std::min(page.low[axis], entry.box_min[axis]);
+      page.high[axis] = is_first ? entry.box_max[axis] : std::max(page.high[axis], entry.box_max[axis]);
+    }
+    is_first = false;
+  }
+  page.bytes = std::move(out).take();
+  return page;
+}
+
+void write_summary(ByteWriter& out, Directory& directory, const std::vector<Page>& pages) {
+  out.string(directory.name);
+  out.string(directory.units);
+  out.varint(directory.metadata.size());
+  for (const auto& [key, value] : directory.metadata) {
+    out.string(key);
+    out.string(value);
+  }
+  write_grid(out, directory.grid);
+  visit_source_counts(directory.source, [&](std::uint32_t count) { out.varint(count); });
+  out.varint(directory.vertices);
+  out.varint(directory.triangles);
+  out.varint(directory.boundary_triangles);
+  out.varint(directory.regions.size());
+  for (const Page& page : pages) {
+    out.varint(page.bytes.size());
+    out.varint(page.parts_size);
+    write_box(out, page.low, page.high);
+    write_hash(out, hash_of(page.bytes));
+  }
+}
+
+/// Offsets follow from the order of parts alone, so they take no bytes in the directory.
+std::uint64_t assign_offsets(Directory& directory, std::uint64_t first_part) {
+  std::uint64_t at = first_part;
+  for (RegionEntry& entry : directory.regions) {
+    for (auto level = entry.levels.rbegin(); level != entry.levels.rend(); ++level) {
+      level->part.offset = at;
+      at += level->part.size;
+    }
+    entry.bundle.offset = at;
+    at += entry.bundle.size;
+  }
+  return at;
+}
+
+struct PageRef {
+  std::uint32_t size = 0;
+  std::uint64_t parts_size = 0;
+  Hash hash;
+};
+
+struct Summary {
+  std::uint32_t region_count = 0;
+  std::vector<PageRef> pages;
+};
+
+Summary read_summary(ByteReader& in, Directory& directory) {
+  directory.name = in.string(kMaxTextLength);
+  directory.units = in.string(kMaxTextLength);
+  const std::uint32_t metadata = in.count(2);
+  for (std::uint32_t i = 0; i < metadata && in.ok(); ++i) {
+    std::string key = in.string(kMaxTextLength);
+    directory.metadata[std::move(key)] = in.string(kMaxTextLength);
+  }
+  directory.grid = read_grid(in);
+  visit_source_counts(directory.source, [&](std::uint32_t& count) { count = in.varint32(); });
+  directory.vertices = in.varint32();
+  directory.triangles = in.varint32();
+  directory.boundary_triangles = in.varint32();
+  Summary summary;
+  summary.region_count = in.varint32();
+  if (summary.region_count == 0 || page_count(summary.region_count) > in.left()) in.set_failed();
+  summary.pages.resize(in.ok() ? page_count(summary.region_count) : 0);
+  for (PageRef& page : summary.pages) {
+    page.size = in.varint32();
+    page.parts_size = in.varint();
+    GridPoint low, high;  // for clients that fetch pages one by one
+    read_box(in, directory.grid, low, high);
+    page.hash = read_hash(in);
+  }
+  return summary;
+}
+
+/// Appends the entries of one page, whose bytes have been checked against their hash.
+Result<void> read_page(std::span<const std::byte> bytes, const PageRef& page, std::uint32_t regions_in_page,
+                       Directory& directory) {
+  ByteReader in(bytes);
+  std::uint64_t parts = 0;
+  for (std::uint32_t i = 0; i < regions_in_page; ++i) {
+    directory.regions.push_back(
+        read_entry(in, static_cast<RegionId>(directory.regions.size()), directory.grid));
+    if (!in.ok()) return fail(ErrorCode::BadStream, "directory: malformed region entry", in.offset());
+    parts += parts_size(directory.regions.back());
+  }
+  if (!in.at_end() || parts != page.parts_size) {
+    return fail(ErrorCode::BadStream, "directory: page does not hold what the summary says", in.offset());
+  }
+  return {};
+}
+
+}  // namespace
+
+std::uint32_t RegionEntry::boundary_vertices() const {
+  return std::accumulate(loop_lengths.begin(), loop_lengths.end(), std::uint32_t{0});
+}
+
+const PartRef* Directory::find(const PartId& id) const {
+  if (id.region >= regions.size()) return nullptr;
+  const RegionEntry& entry = regions[id.region];
+  if (id.kind == PartKind::Bundle) return id.level == 0 && entry.bundle.size > 0 ? &entry.bundle : nullptr;
+  return id.level < entry.levels.size() ? &entry.levels[id.level].part : nullptr;
+}
+
+DirectoryBytes write_directory(Directory& directory) {
+  std::vector<Page> pages;
+  for (std::uint32_t first = 0; first < directory.regions.size(); first += kRegionsPerPage)
+    pages.push_back(write_page(directory, first));
+  ByteWriter out;
+  write_summary(out, directory, pages);
+  const auto summary_size = static_cast<std::uint32_t>(out.size());
+  for (const Page& page : pages) out.append(page.bytes);
+  assign_offsets(directory, kPackHeaderSize + out.size());
+  return {std::move(out).take(), summary_size};
+}
+
+Result<Directory> parse_directory(std::span<const std::byte> bytes, std::uint32_t summary_size) {
+  if (summary_size > bytes.size())
+    return fail(ErrorCode::BadStream, "directory: shorter than its summary page");
+  Directory directory;
+  ByteReader in(bytes.first(summary_size));
+  const Summary summary = read_summary(in, directory);
+  if (!in.at_end()) return fail(ErrorCode::BadStream, "directory: malformed summary page", in.offset());
+
+  ByteReader rest(bytes.subspan(summary_size));
+  for (const PageRef& page : summary.pages) {
+    const std::uint64_t offset = summary_size + rest.offset();
+    const auto page_bytes = rest.take(page.size);
+    if (!rest.ok()) return fail(ErrorCode::BadStream, "directory: truncated page", offset);
+    if (hash_of(page_bytes) != page.hash)
+      return fail(ErrorCode::BadStream, "directory: page does not match its hash", offset);
+    const auto read = static_cast<std::uint32_t>(directory.regions.size());
+    const auto in_page = std::min(kRegionsPerPage, summary.region_count - read);
+    if (auto ok = read_page(page_bytes, page, in_page, directory); !ok) {
+      return fail(ok.error().code, ok.error().message, offset + ok.error().offset);
+    }
+  }
+  if (!rest.at_end())
+    return fail(ErrorCode::BadStream, "directory: bytes after its last page", summary_size + rest.offset());
+  assign_offsets(directory, kPackHeaderSize + bytes.size());
+  return directory;
+}
+
+Hash pack_id(std::span<const std::byte> directory_bytes, std::uint32_t summary_size) {
+  return hash_of(directory_bytes.first(summary_size));
+}
+
+}  // namespace selvage

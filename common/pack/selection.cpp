@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "common/pack/selection.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numeric>
+
+namespace selvage {
+namespace {
+
+constexpr std::size_t kMaxListedRegions = 1'000'000;
+
+bool meets(const Grid& grid, const RegionEntry& entry, const Box& box) {
+  const Vec3 low = grid.position(entry.box_min), high = grid.position(entry.box_max);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (high[axis] < box.min[axis] || low[axis] > box.max[axis]) return false;
+  }
+  return true;
+}
+
+std::vector<RegionId> all_regions(const Directory& directory) {
+  std::vector<RegionId> regions(directory.real_region_count());
+  std::iota(regions.begin(), regions.end(), RegionId{1});
+  return regions;
+}
+
+/// Which regions' bundles to send, by region.
+std::vector<bool> select_bundles(const Directory& directory, const Selection& selection,
+                                 const std::vector<bool>& is_selected) {
+  std::vector<bool> is_sent(directory.regions.size(), false);
+  if (selection.joins == Joins::None) return is_sent;
+  for (RegionId id = 0; id < directory.regions.size(); ++id) {
+    const RegionEntry& entry = directory.regions[id];
+    if (entry.bundle.size == 0) continue;
+    const bool touches_selected =
+        std::any_of(entry.lower_neighbours.begin(), entry.lower_neighbours.end(),
+                    [&](RegionId below) { return below < is_selected.size() && is_selected[below]; });
+    const bool touches_loose =
+        !entry.lower_neighbours.empty() && entry.lower_neighbours.front() == kLooseRegion;
+    is_sent[id] = selection.joins == Joins::All ? is_selected[id] || touches_selected
+                                                : is_selected[id] && (touches_selected || touches_loose);
+  }
+  // Triangles of loose vertices alone belong to no real region: they go with the whole model.
+  const RegionEntry& loose = directory.regions[kLooseRegion];
+  if (loose.bundle.size > 0) is_sent[kLooseRegion] = selection.kind == Selection::Kind::All;
+  return is_sent;
+}
+
+template <class T>
+bool parse_number(std::string_view text, T& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc{} && end == text.data() + text.size() && !text.empty();
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> pieces;
+  while (true) {
+    const std::size_t at = text.find(separator);
+    pieces.push_back(text.substr(0, at));
+    if (at == std::string_view::npos) return pieces;
+    text.remove_prefix(at + 1);
+  }
+}
+
+}  // namespace
+
+Result<std::vector<RegionId>> select_regions(const Directory& directory, const Selection& selection) {
+  std::vector<RegionId> regions;
+  switch (selection.kind) {
+    case Selection::Kind::All:
+      return all_regions(directory);
+    case Selection::Kind::Ids:
+      regions = selection.ids;
+      break;
+    case Selection::Kind::Box:
+      for (RegionId id : all_regions(directory)) {
+        if (meets(directory.grid, directory.regions[id], selection.box)) regions.push_back(id);
+      }
+      break;
+  }
+  std::sort(regions.begin(), regions.end());
+  regions.erase(std::unique(regions.begin(), regions.end()), regions.end());
+  for (RegionId id : regions) {
+    if (id == kLooseRegion || id > directory.real_region_count()) {
+      return fail(ErrorCode::NotFound, "no region " + std::to_string(id) +
+                                           " in this model; it has regions 1 to " +
+                                           std::to_string(directory.real_region_count()));
+    }
+  }
+  return regions;
+}
+
+Result<std::vector<PartId>> select_parts(const Directory& directory, const Selection& selection) {
+  auto regions = select_regions(directory, selection);
+  if (!regions) return forward_error(regions);
+  std::vector<bool> is_selected(directory.regions.size(), false);
+  for (RegionId id : *regions) is_selected[id] = true;
+  const std::vector<bool> is_bundle_sent = select_bundles(directory, selection, is_selected);
+
+  std::vector<PartId> parts;
+  const RegionEntry& loose = directory.regions[kLooseRegion];
+  bool needs_loose = is_bundle_sent[kLooseRegion];
+  for (RegionId id = 1; id < directory.regions.size(); ++id) {
+    const RegionEntry& entry = directory.regions[id];
+    needs_loose |= is_bundle_sent[id] && !entry.lower_neighbours.empty() &&
+                   entry.lower_neighbours.front() == kLooseRegion;
+  }
+  if (needs_loose && !loose.levels.empty()) parts.push_back({PartKind::Region, kLooseRegion, 0});
+  for (RegionId id = 0; id < directory.regions.size(); ++id) {
+    const RegionEntry& entry = directory.regions[id];
+    if (is_selected[id]) {
+      const auto coarsest = static_cast<std::uint8_t>(entry.levels.size() - 1);
+      parts.push_back({PartKind::Region, id, std::min(selection.level, coarsest)});
+    }
+    if (is_bundle_sent[id]) parts.push_back({PartKind::Bundle, id, 0});
+  }
+  return parts;
+}
+
+Result<std::vector<RegionId>> parse_region_list(std::string_view text) {
+  std::vector<RegionId> regions;
+  for (std::string_view piece : split(text, ',')) {
+    const std::size_t dash = piece.find('-');
+    RegionId first = 0, last = 0;
+    const bool is_number =
+        parse_number(piece.substr(0, dash), first) &&
+        parse_number(dash == std::string_view::npos ? piece : piece.substr(dash + 1), last);
+    if (!is_number || last < first) {
+      return fail(ErrorCode::InvalidArgument,
+                  "'" + std::string(piece) + "' is not a region or a range; write for instance 3,5-7");
+    }
+    if (last - first >= kMaxListedRegions - regions.size()) {
+      return fail(ErrorCode::LimitExceeded,
+                  "more than " + std::to_string(kMaxListedRegions) + " regions listed; use --all");
+    }
+    for (RegionId id = first; id <= last; ++id) regions.push_back(id);
+  }
+  return regions;
+}
+
+Result<Box> parse_box(std::string_view text) {
+  const auto pieces = split(text, ',');
+  double values[6];
+  bool is_sound = pieces.size() == 6;
+  for (std::size_t i = 0; is_sound && i < 6; ++i)
+    is_sound = parse_number(pieces[i], values[i]) && std::isfinite(values[i]);
+  if (!is_sound)
+    return fail(ErrorCode::InvalidArgument,
+                "a box is six numbers x0,y0,z0,x1,y1,z1, not '" + std::string(text) + "'");
+  Box box;
+  for (int axis = 0; axis < 3; ++axis) {
+    box.min[axis] = std::min(values[axis], values[axis + 3]);
+    box.max[axis] = std::max(values[axis], values[axis + 3]);
+  }
+  return box;
+}
+
+}  // namespace selvage

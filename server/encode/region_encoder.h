@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+//
+// One region in, one region part out (docs/FORMAT.md, "Region part"). Needs nothing from other regions, so
+// regions are encoded in parallel.
+#pragma once
+
+#include <vector>
+
+#include "common/codec/region_mesh.h"
+#include "common/coding/byte_io.h"
+#include "common/mesh/grid.h"
+
+namespace selvage {
+
+/// A region cut out of the model, in the encoder's own (local) numbering.
+struct RegionSource {
+  CornerTable table;  ///< interior triangles; 2-manifold with boundary, any loops, genus, pieces
+  std::vector<GridPoint> positions;        ///< by local vertex
+  std::vector<bool> is_turned;             ///< by local triangle; empty if none is
+  std::vector<std::uint32_t> weld_groups;  ///< by local vertex, kNone where it is no anchor; empty if none is
+};
+
+struct EncodedRegion {
+  Bytes bytes;
+  std::vector<VertexId> source_of_vertex;  ///< local vertex, by the decoder's vertex number
+  BoundaryLoops loops;                ///< in the decoder's numbers: what (region, boundary index) counts in
+  std::size_t connectivity_size = 0;  ///< bytes of the part that are connectivity; ...
+  std::size_t header_size = 0;        ///< ... and header; the rest is positions, turned bits and anchors
+};
+
+/// Coordinates must be within [0, 2^bits). A source without triangles is the loose pseudo-region.
+EncodedRegion encode_region(const RegionSource& source, int bits);
+
+}  // namespace selvage

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "client/decode/region_decoder.h"
+#include "common/mesh/check_corner_table.h"
+#include "server/encode/region_encoder.h"
+#include "tests/support/random_meshes.h"
+#include "tests/support/shapes.h"
+
+namespace selvage {
+namespace {
+
+constexpr int kBits = 12;
+
+RegionSource source_of(const RandomManifold& mesh, std::uint32_t seed = 0) {
+  const Grid grid = make_grid(mesh.positions, kBits);
+  RegionSource source{mesh.table, {}, {}, {}};
+  for (const Vec3& p : mesh.positions) source.positions.push_back(grid.quantise(p));
+  std::mt19937 random(seed);
+  if (seed % 3 == 1) {
+    for (TriangleId t = 0; t < mesh.table.triangle_count(); ++t)
+      source.is_turned.push_back(random() % 4 == 0);
+  }
+  if (seed % 2 == 1) {
+    for (VertexId v = 0; v < mesh.table.vertex_count(); ++v)
+      source.weld_groups.push_back(random() % 5 == 0 ? random() % 1000 : kNone);
+  }
+  return source;
+}
+
+DecodeLimits limits_of(const RegionSource& source) {
+  return {source.table.vertex_count(), source.table.triangle_count()};
+}
+
+/// A triangle as source vertices and whether it is turned, starting at its lowest vertex.
+using Fact = std::pair<Triangle, bool>;
+
+std::vector<Fact> facts(const CornerTable& table, const std::vector<bool>& is_turned,
+                        const std::vector<VertexId>& source_of_vertex) {
+  std::vector<Fact> all;
+  for (TriangleId t = 0; t < table.triangle_count(); ++t) {
+    Triangle triangle = table.triangle(t);
+    for (VertexId& v : triangle) v = source_of_vertex[v];
+    std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
+    all.emplace_back(triangle, !is_turned.empty() && is_turned[t]);
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+std::size_t open_edges(const CornerTable& table) {
+  return static_cast<std::size_t>(std::count(table.opposite.begin(), table.opposite.end(), kNone));
+}
+
+void expect_round_trip(const RegionSource& source) {
+  const EncodedRegion encoded = encode_region(source, kBits);
+  const auto decoded = decode_region(encoded.bytes, limits_of(source));
+  ASSERT_TRUE(decoded) << decoded.error().message;
+  const auto sound = check_corner_table(decoded->table);
+  ASSERT_TRUE(sound) << sound.error().message;
+
+  std::vector<VertexId> identity(source.table.vertex_count());
+  for (VertexId v = 0; v < identity.size(); ++v) identity[v] = v;
+  EXPECT_EQ(facts(decoded->table, decoded->is_turned, encoded.source_of_vertex),
+            facts(source.table, source.is_turned, identity));
+  EXPECT_EQ(open_edges(decoded->table), open_edges(source.table));
+  for (VertexId v = 0; v < identity.size(); ++v)
+    EXPECT_EQ(decoded->positions[v], source.positions[encoded.source_of_vertex[v]]);
+  EXPECT_EQ(decoded->loops.vertices, encoded.loops.vertices);
+  EXPECT_EQ(decoded->loops.lengths, encoded.loops.lengths);
+
+  std::size_t anchors = 0;
+  for (std::uint32_t group : source.weld_groups) anchors += group != kNone;
+  EXPECT_EQ(decoded->anchors.size(), anchors);
+  for (const Anchor& anchor : decoded->anchors)
+    EXPECT_EQ(anchor.group, source.weld_groups[encoded.source_of_vertex[anchor.vertex]]);
+}
+
+TEST(RegionCodec, RoundTripsHandMadeShapes) {
+  TriangleSoup many = shapes::grid_with_holes(9, 9, 3);
+  shapes::append(many, shapes::torus(4, 5));
+  shapes::append(many, shapes::triangle());
+  shapes::append(many, shapes::tetrahedron());
+  for (const TriangleSoup& soup :
+       {shapes::triangle(), shapes::tetrahedron(), shapes::grid(1, 1), shapes::grid(7, 5),
+        shapes::grid_with_holes(10, 10, 3), shapes::torus(3, 3), shapes::torus(8, 5), shapes::sphere(3),
+        shapes::open_cylinder(6, 4), shapes::chain_of_tori(0), shapes::chain_of_tori(5), many}) {
+    SCOPED_TRACE(soup.triangles.size());
+    expect_round_trip(source_of(split_fans(soup)));
+  }
+}
+
+TEST(RegionCodec, RoundTripsRandomManifolds) {
+  for (std::uint32_t seed = 0; seed < 600; ++seed) {
+    SCOPED_TRACE(seed);
+    expect_round_trip(source_of(random_manifold(seed), seed));
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST(RegionCodec, RoundTripsTwoTrianglesOnTheSameThreeVertices) {
+  RandomManifold pillow{CornerTable{{0, 1, 2, 0, 2, 1}, {3, 5, 4, 0, 2, 1}, {}},
+                        {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
+  pillow.table.set_corner_of_vertex(3);
+  ASSERT_TRUE(check_corner_table(pillow.table));
+  expect_round_trip(source_of(pillow));
+}
+
+TEST(RegionCodec, RoundTripsLooseVertices) {
+  RegionSource source;
+  source.positions = {{5, 6, 7}, {4095, 0, 9}, {5, 6, 7}};
+  source.table.set_corner_of_vertex(3);
+  source.weld_groups = {kNone, 17, kNone};
+  expect_round_trip(source);
+}
+
+TEST(RegionCodec, IsAPureFunctionOfItsInput) {
+  const RegionSource source = source_of(random_manifold(42), 43);
+  EXPECT_EQ(encode_region(source, kBits).bytes, encode_region(source, kBits).bytes);
+}
+
+TEST(RegionCodec, RefusesEveryTruncationAndExtraBytes) {
+  const RegionSource source = source_of(random_manifold(7), 7);
+  const Bytes bytes = encode_region(source, kBits).bytes;
+  for (std::size_t length = 0; length < bytes.size(); ++length) {
+    const Bytes truncated(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(length));
+    EXPECT_FALSE(decode_region(truncated, limits_of(source))) << length;
+  }
+  Bytes longer = bytes;
+  longer.push_back(std::byte{0});
+  EXPECT_FALSE(decode_region(longer, limits_of(source)));
+}
+
+TEST(RegionCodec, SurvivesEveryFlippedBit) {
+  for (std::uint32_t seed : {1u, 7u, 11u}) {
+    const RegionSource source = source_of(random_manifold(seed), seed);
+    const Bytes bytes = encode_region(source, kBits).bytes;
+    for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
+      Bytes damaged = bytes;
+      damaged[bit / 8] ^= static_cast<std::byte>(1u << (bit % 8));
+      const auto decoded = decode_region(damaged, limits_of(source));
+      if (!decoded) continue;
+      // Hashes catch damage; the decoder only owes a sound mesh of the promised size.
+      EXPECT_TRUE(check_corner_table(decoded->table));
+      EXPECT_EQ(decoded->positions.size(), source.positions.size());
+    }
+  }
+}
+
+TEST(RegionCodec, RefusesMoreThanTheDirectoryPromises) {
+  const RegionSource source = source_of(random_manifold(5));
+  const Bytes bytes = encode_region(source, kBits).bytes;
+  DecodeLimits less = limits_of(source);
+  --less.triangles;
+  EXPECT_EQ(decode_region(bytes, less).error().code, ErrorCode::BadStream);
+}
+
+}  // namespace
+}  // namespace selvage

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "common/pack/selection.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/fake_pack.h"
+
+namespace selvage {
+namespace {
+
+const Directory& row_of_five() {
+  static const auto pack = Pack::from_bytes(fake_pack_bytes(5)).value();
+  return pack->directory();
+}
+
+std::vector<PartId> regions(std::initializer_list<RegionId> ids) {
+  std::vector<PartId> parts;
+  for (RegionId id : ids) parts.push_back({PartKind::Region, id, 0});
+  return parts;
+}
+
+PartId bundle(RegionId id) { return {PartKind::Bundle, id, 0}; }
+
+TEST(Selection, WithoutJoinsGivesJustTheRegions) {
+  EXPECT_EQ(
+      select_parts(row_of_five(), {.kind = Selection::Kind::Ids, .ids = {4, 2, 4}, .joins = Joins::None})
+          .value(),
+      regions({2, 4}));
+}
+
+TEST(Selection, ClosureAddsTheBundlesBetweenSelectedRegions) {
+  auto expected = regions({1, 3, 4});
+  expected.push_back(bundle(4));
+  EXPECT_EQ(
+      select_parts(row_of_five(), {.kind = Selection::Kind::Ids, .ids = {1, 3, 4}, .joins = Joins::Closure})
+          .value(),
+      expected);
+}
+
+TEST(Selection, AllJoinsReachToUnselectedNeighbours) {
+  const auto parts =
+      select_parts(row_of_five(), {.kind = Selection::Kind::Ids, .ids = {3}, .joins = Joins::All}).value();
+  EXPECT_EQ(parts, (std::vector<PartId>{{PartKind::Region, 3, 0}, bundle(3), bundle(4)}));
+}
+
+TEST(Selection, BoxMeetsRegionsInModelUnits) {
+  const Selection box{.kind = Selection::Kind::Box, .box = {{2.5, 0, 0}, {3.5, 1, 1}}, .joins = Joins::None};
+  EXPECT_EQ(select_regions(row_of_five(), box).value(), (std::vector<RegionId>{2, 3}));
+}
+
+TEST(Selection, NamesARegionThatIsNotThere) {
+  for (RegionId id : {0u, 6u}) {
+    const auto missing = select_parts(row_of_five(), {.kind = Selection::Kind::Ids, .ids = {id}});
+    ASSERT_FALSE(missing);
+    EXPECT_EQ(missing.error().code, ErrorCode::NotFound);
+    EXPECT_NE(missing.error().message.find("no region " + std::to_string(id)), std::string::npos);
+  }
+}
+
+TEST(Selection, ParsesListsAndBoxes) {
+  EXPECT_EQ(parse_region_list("3,5-7").value(), (std::vector<RegionId>{3, 5, 6, 7}));
+  for (const char* bad : {"", "3,", "7-5", "a", "1-", "-1", "1-4000000000"})
+    EXPECT_FALSE(parse_region_list(bad)) << bad;
+  EXPECT_EQ(parse_box("1,2,3,0,5,-6")->min.z, -6);
+  for (const char* bad : {"", "1,2,3", "1,2,3,4,5,x", "1,2,3,4,5,inf"}) EXPECT_FALSE(parse_box(bad)) << bad;
+}
+
+}  // namespace
+}  // namespace selvage
