@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+//
+// OM, OpenMesh's own binary format, read and written by OpenMesh. The format stores a half-edge structure.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "common/base/result.h"
+#include "common/mesh_io/mesh_file.h"
+
+namespace selvage {
+
+/// OpenMesh's reader drives a recorder of ours instead of a mesh, so that every index is checked before it is
+/// followed, and the file's own vertices and faces come out. The counts that it delivers are compared with
+/// the file's. Memory stays within a small multiple of `bytes`. Thread-safe (OpenMesh's reader is one global
+/// object: a mutex guards it).
+Result<MeshFile> parse_om(std::span<const std::byte> bytes);
+
+/// The mesh as an OM file with float64 positions. InvalidArgument where a half-edge mesh cannot hold it (see
+/// openmesh_mesh.h).
+Result<std::string> format_om(const TriangleSoup& soup);
+
+}  // namespace selvage
