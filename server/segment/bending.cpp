@@ -32,7 +32,8 @@ Ends shoot(const CornerTable& mesh, std::span<const Vec3> positions, const Geode
   int shot = 0;
   double begin = 0;  // of the current triangle's angle
   for_each_corner_at(mesh, v, [&](CornerId c) {
-    const double end = begin + angle_at(positions[v], positions[mesh.vertex(next(c))], positions[mesh.vertex(prev(c))]);
+    const double end =
+        begin + angle_at(positions[v], positions[mesh.vertex(next(c))], positions[mesh.vertex(prev(c))]);
     for (; shot < kDirections && (shot + 0.5) * step < end; ++shot) {
       ends[shot] = tracer.trace(c, (shot + 0.5) * step - begin, radius);
       ends[shot].point = ends[shot].point - positions[v];
@@ -65,8 +66,8 @@ Bending fourier(const std::array<double, kDirections>& q) {
 
 }  // namespace
 
-Bending measure_bending(const CornerTable& mesh, std::span<const Vec3> positions, const GeodesicTracer& tracer,
-                        VertexId v, double radius, double outward) {
+Bending measure_bending(const CornerTable& mesh, std::span<const Vec3> positions,
+                        const GeodesicTracer& tracer, VertexId v, double radius, double outward) {
   if (mesh.is_border_vertex(v) || !(radius > 0)) return {};
   const Ends ends = shoot(mesh, positions, tracer, v, radius);
   const double min_length = kMinShareOfRadius * radius;

@@ -22,13 +22,13 @@ struct Bending {
   double greatest() const { return mean + amplitude; }
 };
 
-/// Shoots eight geodesics of length `radius` from `v`, at equal angles. With d_j the way to the j-th end, rho_j
-/// the length walked and N the normal of the fan of ends, the bending in that direction is
+/// Shoots eight geodesics of length `radius` from `v`, at equal angles. With d_j the way to the j-th end,
+/// rho_j the length walked and N the normal of the fan of ends, the bending in that direction is
 ///   q_j = -2 radius (d_j . N) / rho_j^2,
-/// and mean and amplitude are the 0th and 2nd Fourier coefficients of q (Euler's formula for normal curvature).
-/// A direction that meets a mesh border before 0.3 radius takes the value of the opposite one, or 0.
-/// `outward` is -1 on a surface that faces inwards. Zero at border vertices. Needs a triangle at `v`.
-Bending measure_bending(const CornerTable& mesh, std::span<const Vec3> positions, const GeodesicTracer& tracer,
-                        VertexId v, double radius, double outward);
+/// and mean and amplitude are the 0th and 2nd Fourier coefficients of q (Euler's formula for normal
+/// curvature). A direction that meets a mesh border before 0.3 radius takes the value of the opposite one, or
+/// 0. `outward` is -1 on a surface that faces inwards. Zero at border vertices. Needs a triangle at `v`.
+Bending measure_bending(const CornerTable& mesh, std::span<const Vec3> positions,
+                        const GeodesicTracer& tracer, VertexId v, double radius, double outward);
 
 }  // namespace selvage

@@ -58,7 +58,10 @@ GeodesicEnd GeodesicTracer::trace(CornerId start, double angle, double length) c
   const double length_a = selvage::length(to_a);
   if (!(length_a > 0)) return {origin, 0};
   const Vec2 direction{std::cos(angle), std::sin(angle)};
-  Unfolded in{start, {}, {length_a, 0}, {dot(to_a, to_b) / length_a, selvage::length(selvage::cross(to_a, to_b)) / length_a}};
+  Unfolded in{start,
+              {},
+              {length_a, 0},
+              {dot(to_a, to_b) / length_a, selvage::length(selvage::cross(to_a, to_b)) / length_a}};
 
   double reached = 0;
   for (int triangle = 0; triangle < kMaxTriangles; ++triangle) {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Straightest geodesics: from a vertex straight on over the surface, triangle after triangle unfolded into the
-// plane of the first.
+// Straightest geodesics: from a vertex straight on over the surface, triangle after triangle unfolded into
+// the plane of the first.
 //
-//                 C          The line leaves (third, a, b) through the edge a-b. C, the next triangle's apex, is
-//               /   \        placed in the plane from its coordinates relative to that edge. If C lies left of the
+//                 C          The line leaves (third, a, b) through the edge a-b. C, the next triangle's apex,
+//                 is
+//               /   \        placed in the plane from its coordinates relative to that edge. If C lies left
+//               of the
 //         b ---+-----+- a    line, it leaves through a-C, otherwise through C-b.
 //           \     |    /
 //            \    |   /
@@ -21,8 +23,9 @@ namespace selvage {
 
 /// Where a geodesic ended.
 struct GeodesicEnd {
-  Vec3 point;         ///< on the surface
-  double length = 0;  ///< walked; less than asked for if a mesh border, or a limit of 1024 triangles, came first
+  Vec3 point;  ///< on the surface
+  double length =
+      0;  ///< walked; less than asked for if a mesh border, or a limit of 1024 triangles, came first
 };
 
 /// Holds, for every corner, where it lies relative to the edge it faces: 8 bytes a corner. Thread-safe.
@@ -36,8 +39,8 @@ class GeodesicTracer {
   GeodesicEnd trace(CornerId start, double angle, double length) const;
 
  private:
-  /// In the frame whose origin is vertex(next(c)) and whose unit and x axis is the edge to vertex(prev(c)); the
-  /// triangle lies on the side of positive y.
+  /// In the frame whose origin is vertex(next(c)) and whose unit and x axis is the edge to vertex(prev(c));
+  /// the triangle lies on the side of positive y.
   struct Apex {
     float x, y;
   };

@@ -36,9 +36,10 @@ std::vector<std::uint8_t> sample_spacing(const std::vector<float>& radius, const
 
 }  // namespace
 
-HeightField measure_height(const CornerTable& mesh, std::span<const Vec3> positions, const Components& components,
-                           std::span<const ComponentShape> shapes, const VertexMeasures& measures,
-                           const HeightFieldOptions& options, const ParallelFor& parallel) {
+HeightField measure_height(const CornerTable& mesh, std::span<const Vec3> positions,
+                           const Components& components, std::span<const ComponentShape> shapes,
+                           const VertexMeasures& measures, const HeightFieldOptions& options,
+                           const ParallelFor& parallel) {
   HeightField field{std::vector<float>(mesh.vertex_count(), 0),
                     radii(components, shapes, measures, options.radius_share)};
   const std::vector<std::uint8_t> spacing = sample_spacing(field.radius, measures);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The height field of XMR-G mode: one number a vertex instead of curvature and distance with a threshold each.
+// The height field of XMR-G mode: one number a vertex instead of curvature and distance with a threshold
+// each.
 //   kappa = radius times least normal curvature, dimensionless;
 // kappa < 0 exactly where the surface is hyperbolic or concave, the dissertation's Def. 4.3 in one number.
 // The radius belongs to the shape and not to the sampling, so resolution hardly matters.
@@ -30,8 +31,9 @@ struct HeightField {
 };
 
 /// Measures bending at samples, in parallel, and spreads it to all vertices.
-HeightField measure_height(const CornerTable& mesh, std::span<const Vec3> positions, const Components& components,
-                           std::span<const ComponentShape> shapes, const VertexMeasures& measures,
-                           const HeightFieldOptions& options, const ParallelFor& parallel);
+HeightField measure_height(const CornerTable& mesh, std::span<const Vec3> positions,
+                           const Components& components, std::span<const ComponentShape> shapes,
+                           const VertexMeasures& measures, const HeightFieldOptions& options,
+                           const ParallelFor& parallel);
 
 }  // namespace selvage

@@ -35,7 +35,8 @@ class Coverage {
 
 }  // namespace
 
-std::vector<VertexId> choose_samples(const CornerTable& mesh, std::span<const std::uint8_t> spacing_of_vertex) {
+std::vector<VertexId> choose_samples(const CornerTable& mesh,
+                                     std::span<const std::uint8_t> spacing_of_vertex) {
   Coverage coverage(mesh);
   std::vector<VertexId> samples;
   for (VertexId v = 0; v < mesh.vertex_count(); ++v) {

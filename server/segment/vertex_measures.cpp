@@ -4,11 +4,13 @@
 namespace selvage {
 
 VertexMeasures measure_vertices(const CornerTable& mesh, std::span<const Vec3> positions) {
-  VertexMeasures measures{std::vector<float>(mesh.vertex_count(), 0), std::vector<float>(mesh.vertex_count(), 0)};
+  VertexMeasures measures{std::vector<float>(mesh.vertex_count(), 0),
+                          std::vector<float>(mesh.vertex_count(), 0)};
   std::vector<float> edge_weight(mesh.vertex_count(), 0);
   for (TriangleId t = 0; t < mesh.triangle_count(); ++t) {
     const auto corners = mesh.triangle(t);
-    const Vec3 edge[3] = {positions[corners[1]] - positions[corners[0]], positions[corners[2]] - positions[corners[1]],
+    const Vec3 edge[3] = {positions[corners[1]] - positions[corners[0]],
+                          positions[corners[2]] - positions[corners[1]],
                           positions[corners[0]] - positions[corners[2]]};
     const auto third_of_area = static_cast<float>(length(cross(edge[0], edge[1])) / 6);
     for (std::uint32_t i = 0; i < 3; ++i) {
