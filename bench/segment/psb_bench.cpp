@@ -20,47 +20,14 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/segment/modes.h"
 #include "bench/segment/psb.h"
 #include "bench/segment/scores.h"
 #include "server/segment/check_partition.h"
-#include "server/segment/segment.h"
 #include "server/segment/triangle_labels.h"
 
 namespace selvage::bench {
 namespace {
-
-struct Mode {
-  std::string name;
-  SegmentOptions options;
-};
-
-std::vector<Mode> all_modes() {
-  std::vector<Mode> modes = {{"xmrg", {}}, {"streaming", {}}, {"cad", {.mode = SegmentMode::Cad}}};
-  for (int rings : {1, 2, 3, 5}) {
-    modes.push_back({"classic-" + std::to_string(rings), {.mode = SegmentMode::Classic, .xmr_rings = rings}});
-  }
-  modes.push_back({"zhang", {.mode = SegmentMode::Zhang}});
-  modes.push_back({"mw99", {.mode = SegmentMode::ManganWhitaker}});
-  return modes;
-}
-
-/// What --set NAME=VALUE may change. False if there is no such name.
-bool set_option(SegmentOptions& options, const std::string& name, double value) {
-  const std::map<std::string, double*> knobs = {{"rho", &options.height.radius_share},
-                                                {"tau", &options.basins.plateau_depth},
-                                                {"gap", &options.basins.gap},
-                                                {"eps", &options.hierarchy.flat_border},
-                                                {"cap", &options.hierarchy.deepest},
-                                                {"min-area", &options.hierarchy.min_area_share},
-                                                {"stop", &options.stop_saliency},
-                                                {"delta-k", &options.thresholds.curvature_factor},
-                                                {"delta-d", &options.thresholds.distance_factor}};
-  if (const auto knob = knobs.find(name); knob != knobs.end()) return *knob->second = value, true;
-  if (name == "smooth") return options.smooth = value != 0, true;
-  if (name == "prune") return options.prune_branches = value != 0, true;
-  if (name == "regions") return options.target_regions = static_cast<std::uint32_t>(value), true;
-  return false;
-}
 
 constexpr int kMeasures = 3;
 constexpr std::array<const char*, kMeasures> kMeasureNames = {"Rand error", "Hamming distance",
@@ -129,8 +96,7 @@ class Table {
     add(*model, "humans", score_humans(*model, use_cuts));
     add(*model, "one", score(*model, use_cuts, Labels(model->mesh.triangle_count(), 0), nullptr));
     for (const Mode& mode : command_.modes) {
-      SegmentOptions options = mode.options;
-      if (mode.name == "streaming") options = with_streaming_sizes(options, model->mesh.triangle_count());
+      const SegmentOptions options = mode.for_triangles(model->mesh.triangle_count());
       const auto start = std::chrono::steady_clock::now();
       const Segmentation result = segment(model->mesh, model->positions, options, serial_for());
       const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
@@ -196,15 +162,6 @@ int usage() {
   return 2;
 }
 
-std::vector<Mode> chosen_modes(std::string_view names) {
-  std::vector<Mode> modes;
-  for (Mode& mode : all_modes()) {
-    const bool is_named = ("," + std::string(names) + ",").find("," + mode.name + ",") != std::string::npos;
-    if (names.empty() || is_named) modes.push_back(std::move(mode));
-  }
-  return modes;
-}
-
 int run(int argc, char** argv) {
   Command command;
   std::string modes;
@@ -226,14 +183,7 @@ int run(int argc, char** argv) {
   }
   if (command.folder.empty()) return usage();
   command.modes = chosen_modes(modes);
-  for (Mode& mode : command.modes) {
-    for (const std::string& setting : settings) {
-      const std::size_t equals = setting.find('=');
-      if (equals == std::string::npos) return usage();
-      if (!set_option(mode.options, setting.substr(0, equals), std::atof(setting.c_str() + equals + 1)))
-        return usage();
-    }
-  }
+  if (!apply_settings(command.modes, settings)) return usage();
   Table(command).run();
   return 0;
 }
