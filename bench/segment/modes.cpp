@@ -20,6 +20,7 @@ std::vector<Mode> all_modes() {
 /// What --set NAME=VALUE may change. False if there is no such name.
 bool set_option(SegmentOptions& options, const std::string& name, double value) {
   const std::map<std::string, double*> knobs = {{"rho", &options.height.radius_share},
+                                                {"spacing", &options.height.sample_spacing},
                                                 {"tau", &options.basins.plateau_depth},
                                                 {"gap", &options.basins.gap},
                                                 {"eps", &options.hierarchy.flat_border},
@@ -55,7 +56,8 @@ bool apply_settings(std::vector<Mode>& modes, const std::vector<std::string>& se
     const std::size_t equals = setting.find('=');
     if (equals == std::string::npos) return false;
     for (Mode& mode : modes) {
-      if (!set_option(mode.options, setting.substr(0, equals), std::atof(setting.c_str() + equals + 1))) return false;
+      if (!set_option(mode.options, setting.substr(0, equals), std::atof(setting.c_str() + equals + 1)))
+        return false;
     }
   }
   return true;

@@ -6,7 +6,8 @@
 //   stage_bench --mode classic-3 --threads 2 --repeats 7 MODEL...
 //   stage_bench --mode streaming --set tau=0.02 MODEL...
 //
-// Times are the least of the repeats, in ms: CPU time, or wall time with more than one thread. Then come regions, boundary triangles and loose vertices.
+// Times are the least of the repeats, in ms: CPU time, or wall time with more than one thread. Then come
+// regions, boundary triangles and loose vertices.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -45,17 +46,20 @@ class Stopwatch {
     return result;
   }
   void print(double reference_ms) const {
-    for (const auto& [name, ms] : steps_) std::printf("  %-12s %9.2f ms  %6.1f x\n", name.c_str(), ms, ms / reference_ms);
+    for (const auto& [name, ms] : steps_)
+      std::printf("  %-12s %9.2f ms  %6.1f x\n", name.c_str(), ms, ms / reference_ms);
   }
   double least(const char* name) const {
-    for (const auto& [known, ms] : steps_) if (known == name) return ms;
+    for (const auto& [known, ms] : steps_)
+      if (known == name) return ms;
     return 0;
   }
 
  private:
   double now_ms() const {
     if (use_cpu_time_) return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
   }
   void note(const char* name, double ms) {
     for (auto& [known, least] : steps_) {
@@ -87,7 +91,8 @@ void time_stages(const CornerTable& mesh, const std::vector<Vec3>& positions, co
   });
   auto basins = time("basins", [&] { return flood_basins(mesh, positions, field, options.basins); });
   time("hierarchy", [&] {
-    return build_hierarchy(mesh, positions, components, shapes, measures, field.kappa, basins, options.hierarchy);
+    return build_hierarchy(mesh, positions, components, shapes, measures, field.kappa, basins,
+                           options.hierarchy);
   });
 }
 
@@ -95,7 +100,8 @@ int bench_model(const Command& command, const Mode& mode, const std::string& pat
   auto file = read_mesh(path);
   if (!file) return std::fprintf(stderr, "%s\n", file.error().to_string().c_str()), 1;
   auto repaired = repair(file->soup);
-  if (!repaired) return std::fprintf(stderr, "%s: %s\n", path.c_str(), repaired.error().to_string().c_str()), 1;
+  if (!repaired)
+    return std::fprintf(stderr, "%s: %s\n", path.c_str(), repaired.error().to_string().c_str()), 1;
   const RepairedMesh ordered = spatially_ordered(std::move(*repaired));
   const CornerTable& mesh = ordered.table;
   const std::vector<Vec3>& positions = ordered.positions;
@@ -110,14 +116,16 @@ int bench_model(const Command& command, const Mode& mode, const std::string& pat
     time("adjacency", [&] { return build_corner_table(triangles, mesh.vertex_count()); });
     if (is_xmrg) time_stages(mesh, positions, xmrg_options(options), parallel, time);
     result = time("segment", [&] { return segment(mesh, positions, options, parallel); });
-    time("regularise", [&] { return regularise(mesh, result.region_of_vertex, options.regularise, positions); });
+    time("regularise",
+         [&] { return regularise(mesh, result.region_of_vertex, options.regularise, positions); });
   }
   const auto partition = make_partition(mesh, result.region_of_vertex, result.region_count);
   const auto holds = check_partition(mesh, partition);
-  std::printf("%s: %u triangles, %u regions, boundary triangles %.2f %%, loose vertices %u%s%s\n", path.c_str(),
-              mesh.triangle_count(), result.region_count,
+  std::printf("%s: %u triangles, %u regions, boundary triangles %.2f %%, loose vertices %u%s%s\n",
+              path.c_str(), mesh.triangle_count(), result.region_count,
               100.0 * static_cast<double>(partition.boundary_triangles.size()) / mesh.triangle_count(),
-              result.loose_vertex_count, holds ? "" : ", VIOLATION ", holds ? "" : holds.error().message.c_str());
+              result.loose_vertex_count, holds ? "" : ", VIOLATION ",
+              holds ? "" : holds.error().message.c_str());
   time.print(time.least("adjacency"));
   return holds ? 0 : 1;
 }
@@ -127,15 +135,21 @@ int run(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
     const bool has_value = i + 1 < argc;
-    if (argument == "--mode" && has_value) command.mode = argv[++i];
-    else if (argument == "--set" && has_value) command.settings.push_back(argv[++i]);
-    else if (argument == "--threads" && has_value) command.threads = static_cast<unsigned>(std::stoul(argv[++i]));
-    else if (argument == "--repeats" && has_value) command.repeats = std::stoi(argv[++i]);
-    else command.models.push_back(argument);
+    if (argument == "--mode" && has_value)
+      command.mode = argv[++i];
+    else if (argument == "--set" && has_value)
+      command.settings.push_back(argv[++i]);
+    else if (argument == "--threads" && has_value)
+      command.threads = static_cast<unsigned>(std::stoul(argv[++i]));
+    else if (argument == "--repeats" && has_value)
+      command.repeats = std::stoi(argv[++i]);
+    else
+      command.models.push_back(argument);
   }
   std::vector<Mode> modes = chosen_modes(command.mode);
   if (modes.size() != 1 || command.models.empty() || !apply_settings(modes, command.settings)) {
-    std::fprintf(stderr, "usage: stage_bench [--mode M] [--threads N] [--repeats N] [--set name=value]... MODEL...\n");
+    std::fprintf(
+        stderr, "usage: stage_bench [--mode M] [--threads N] [--repeats N] [--set name=value]... MODEL...\n");
     return 2;
   }
   int failed = 0;

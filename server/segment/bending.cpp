@@ -61,7 +61,7 @@ Bending fourier(const std::array<double, kDirections>& q) {
     cosine += q[j] * kCos[j % 4];
     sine += q[j] * kSin[j % 4];
   }
-  return {mean / kDirections, 2.0 / kDirections * std::hypot(cosine, sine)};
+  return {mean / kDirections, 2.0 / kDirections * std::sqrt(cosine * cosine + sine * sine)};
 }
 
 }  // namespace

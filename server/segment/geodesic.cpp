@@ -18,6 +18,8 @@ struct Vec2 {
 
 double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
 
+Vec2 choose(bool first, Vec2 a, Vec2 b) { return {first ? a.x : b.x, first ? a.y : b.y}; }
+
 /// The part of the plane that the line is in: a triangle unfolded, leaving through the edge a-b.
 struct Unfolded {
   CornerId facing;  ///< the corner that faces the edge; a is the vertex after it, b the one before it
@@ -40,14 +42,18 @@ Vec3 lift(const CornerTable& mesh, std::span<const Vec3> positions, const Unfold
 }  // namespace
 
 GeodesicTracer::GeodesicTracer(const CornerTable& mesh, std::span<const Vec3> positions)
-    : mesh_(mesh), positions_(positions), apex_of_corner_(mesh.corner_count()) {
+    : mesh_(mesh), positions_(positions), beyond_corner_(mesh.corner_count()) {
   for (CornerId c = 0; c < mesh.corner_count(); ++c) {
-    const Vec3 origin = positions[mesh.vertex(next(c))];
-    const Vec3 edge = positions[mesh.vertex(prev(c))] - origin, apex = positions[mesh.vertex(c)] - origin;
+    const CornerId across = mesh.opposite[c];
+    if (across == kNone) continue;
+    const Vec3 origin = positions[mesh.vertex(prev(c))];
+    const Vec3 edge = positions[mesh.vertex(next(c))] - origin,
+               apex = positions[mesh.vertex(across)] - origin;
     const double squared = dot(edge, edge);
-    if (!(squared > 0)) continue;  // stays at the origin; a line through it ends somewhere at the edge
-    apex_of_corner_[c] = {static_cast<float>(dot(apex, edge) / squared),
-                          static_cast<float>(length(selvage::cross(edge, apex)) / squared)};
+    // On an edge without length the apex stays at its end, where a line through it comes to rest.
+    const double scale = squared > 0 ? 1 / squared : 0;
+    beyond_corner_[c] = {across, static_cast<float>(dot(apex, edge) * scale),
+                         static_cast<float>(length(selvage::cross(edge, apex)) * scale)};
   }
 }
 
@@ -69,17 +75,19 @@ GeodesicEnd GeodesicTracer::trace(CornerId start, double angle, double length) c
     // The line meets the edge after along / across; compared without dividing.
     const double along = cross(in.a, edge), across = cross(direction, edge);
     if (along >= length * across) return {lift(mesh_, positions_, in, direction * length), length};
-    reached = along / across;
-    const CornerId beyond = mesh_.opposite[in.facing];
-    if (beyond == kNone) break;
-    const Apex apex = apex_of_corner_[beyond];
-    const Vec2 back = in.a - in.b;  // the edge as the next triangle runs along it
-    const Vec2 placed = in.b + back * apex.x + Vec2{-back.y, back.x} * apex.y;
-    if (cross(direction, placed) > 0) {
-      in = {next(beyond), in.b, in.a, placed};
-    } else {
-      in = {prev(beyond), in.a, placed, in.b};
+    const Beyond& beyond = beyond_corner_[in.facing];
+    if (beyond.corner == kNone || triangle + 1 == kMaxTriangles) {
+      reached = along / across;
+      break;
     }
+    const Vec2 back = in.a - in.b;  // the edge as the next triangle runs along it
+    const Vec2 placed = in.b + back * beyond.x + Vec2{-back.y, back.x} * beyond.y;
+    // Which way is a coin toss, so values are chosen rather than branches taken.
+    const bool is_left = cross(direction, placed) > 0;
+    const CornerId first = beyond.corner / 3 * 3, place = beyond.corner - first;
+    const CornerId turned = is_left ? (place == 2 ? 0 : place + 1) : (place == 0 ? 2 : place - 1);
+    in = {first + turned, choose(is_left, in.b, in.a), choose(is_left, in.a, placed),
+          choose(is_left, placed, in.b)};
   }
   if (!(reached > 0)) return {origin, 0};
   return {lift(mesh_, positions_, in, direction * reached), reached};

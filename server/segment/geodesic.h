@@ -28,7 +28,7 @@ struct GeodesicEnd {
       0;  ///< walked; less than asked for if a mesh border, or a limit of 1024 triangles, came first
 };
 
-/// Holds, for every corner, where it lies relative to the edge it faces: 8 bytes a corner. Thread-safe.
+/// Holds, for every corner, what lies beyond the edge it faces: 12 bytes a corner. Thread-safe.
 class GeodesicTracer {
  public:
   /// Both must outlive the tracer.
@@ -39,15 +39,17 @@ class GeodesicTracer {
   GeodesicEnd trace(CornerId start, double angle, double length) const;
 
  private:
-  /// In the frame whose origin is vertex(next(c)) and whose unit and x axis is the edge to vertex(prev(c));
-  /// the triangle lies on the side of positive y.
-  struct Apex {
-    float x, y;
+  /// The opposite corner, and its place in the frame whose origin is the far end of the edge
+  /// (vertex(prev(c))) and whose unit and x axis is the edge back to vertex(next(c)); it lies on the side of
+  /// positive y.
+  struct Beyond {
+    CornerId corner = kNone;
+    float x = 0, y = 0;
   };
 
   const CornerTable& mesh_;
   std::span<const Vec3> positions_;
-  std::vector<Apex> apex_of_corner_;
+  std::vector<Beyond> beyond_corner_;  // together, since a step of a walk needs all of it and nothing else
 };
 
 }  // namespace selvage

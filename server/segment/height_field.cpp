@@ -22,13 +22,15 @@ std::vector<float> radii(const Components& components, std::span<const Component
   return radius;
 }
 
-/// A quarter of the radius, in edges.
-std::vector<std::uint8_t> sample_spacing(const std::vector<float>& radius, const VertexMeasures& measures) {
+/// The share of the radius in edges.
+std::vector<std::uint8_t> sample_spacing(const std::vector<float>& radius, const VertexMeasures& measures,
+                                         double share_of_radius) {
   constexpr float kMaxSpacing = 64;  // where edges are tiny beside the component: slivers, coincident points
   std::vector<std::uint8_t> spacing(radius.size(), 1);
   for (std::size_t v = 0; v < radius.size(); ++v) {
     if (!(measures.mean_edge[v] > 0)) continue;
-    const float edges = std::min(radius[v] / (4 * measures.mean_edge[v]), kMaxSpacing);
+    const float edges =
+        std::min(static_cast<float>(share_of_radius) * radius[v] / measures.mean_edge[v], kMaxSpacing);
     spacing[v] = static_cast<std::uint8_t>(std::max(edges, 1.0f));
   }
   return spacing;
@@ -42,7 +44,7 @@ HeightField measure_height(const CornerTable& mesh, std::span<const Vec3> positi
                            const ParallelFor& parallel) {
   HeightField field{std::vector<float>(mesh.vertex_count(), 0),
                     radii(components, shapes, measures, options.radius_share)};
-  const std::vector<std::uint8_t> spacing = sample_spacing(field.radius, measures);
+  const std::vector<std::uint8_t> spacing = sample_spacing(field.radius, measures, options.sample_spacing);
   const std::vector<VertexId> samples = choose_samples(mesh, spacing);
   const GeodesicTracer tracer(mesh, positions);
   for_each_chunk(parallel, samples.size(), [&](std::size_t begin, std::size_t end) {

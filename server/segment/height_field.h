@@ -20,6 +20,9 @@ namespace selvage {
 
 struct HeightFieldOptions {
   double radius_share = 0.04;  ///< rho: radius as a share of the square root of the component's area
+  /// Distance between samples as a share of the radius, rounded down to whole edges; 0: every vertex. Half as
+  /// dense costs .001 of Rand error on the benchmark, twice as dense gains nothing.
+  double sample_spacing = 0.34;
   /// Sharp convex edges separate too: kappa becomes min(kappa, -0.5 * greatest bending). For CAD parts.
   bool cut_at_ridges = false;
 };

@@ -59,7 +59,13 @@ SegmentOptions with_streaming_sizes(SegmentOptions options, std::uint32_t triang
 XmrgOptions xmrg_options(const SegmentOptions& options) {
   XmrgOptions xmrg{options.height,        options.basins,         options.hierarchy,
                    options.stop_saliency, options.target_regions, options.smooth};
-  xmrg.height.cut_at_ridges |= options.mode == SegmentMode::Cad;
+  if (options.mode == SegmentMode::Cad) {
+    // A cylinder bends all over, with height -0.5 radius / R; a ridge of 17 degrees is as high as one of R
+    // = 3.3 radii.
+    constexpr double kRidgeDepth = 0.15;
+    xmrg.height.cut_at_ridges = true;
+    xmrg.basins.plateau_depth = std::max(xmrg.basins.plateau_depth, kRidgeDepth);
+  }
   xmrg.hierarchy.min_region_vertices = options.min_region_vertices;
   xmrg.hierarchy.max_region_vertices = options.max_region_vertices;
   return xmrg;

@@ -92,9 +92,9 @@ TEST(Samples, LeaveNoVertexUncovered) {
 TEST(HeightField, IsLowInTheCreaseOfABoltOnly) {
   const TestMesh mesh = mesh_of(shapes::bolt(0.1));
   const Components components = find_components(mesh.table);
-  const HeightField field =
-      measure_height(mesh.table, mesh.positions, components, measure_components(mesh.table, mesh.positions, components),
-                     measure_vertices(mesh.table, mesh.positions), {}, serial_for());
+  const HeightField field = measure_height(mesh.table, mesh.positions, components,
+                                           measure_components(mesh.table, mesh.positions, components),
+                                           measure_vertices(mesh.table, mesh.positions), {}, serial_for());
   float highest_in_crease = -1, lowest_elsewhere = 1;
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     const Vec3& p = mesh.positions[v];

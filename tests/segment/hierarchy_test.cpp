@@ -12,7 +12,8 @@
 namespace selvage {
 namespace {
 
-/// A flat strip, 12 cells long and 2 wide, in four bands of basins; the border between 1 and 2 is a deep crease.
+/// A flat strip, 12 cells long and 2 wide, in four bands of basins; the border between 1 and 2 is a deep
+/// crease.
 struct Strip {
   TestMesh mesh = mesh_of(shapes::grid(12, 2));
   Minima basins;
@@ -81,7 +82,8 @@ TEST(MergeByDepth, TheShallowestRegionFlowsOverItsLowestPass) {
   std::vector<double> height;
   for (const Vec3& p : strip.mesh.positions) {
     const int x = static_cast<int>(p.x);
-    const double heights[13] = {0, 0, 5, 5, 0, 0, 2, 2, 1, 3, 3, 0, 0};  // passes 5, 2, 3; basin 2 is one deep
+    const double heights[13] = {0, 0, 5, 5, 0, 0, 2,
+                                2, 1, 3, 3, 0, 0};  // passes 5, 2, 3; basin 2 is one deep
     height.push_back(heights[x]);
   }
   merge_by_depth(strip.mesh.table, height, labels, 3);

@@ -15,7 +15,8 @@
 namespace selvage {
 namespace {
 
-/// A flat grid with unit cells and radius 1; a wall of plateau across the middle, with a gap of `gap` vertices.
+/// A flat grid with unit cells and radius 1; a wall of plateau across the middle, with a gap of `gap`
+/// vertices.
 struct Wall {
   static constexpr int kSide = 20;
   TestMesh mesh = mesh_of(shapes::grid(kSide, kSide));
@@ -29,7 +30,9 @@ struct Wall {
       field.kappa.push_back(is_wall ? -0.5f : 0.1f);
     }
   }
-  std::uint32_t label(const Minima& labels, int x, int y) const { return labels.label_of_vertex[y * (kSide + 1) + x]; }
+  std::uint32_t label(const Minima& labels, int x, int y) const {
+    return labels.label_of_vertex[y * (kSide + 1) + x];
+  }
 };
 
 TEST(GapDistance, IsInRadiiAndEndsAtTheReach) {
@@ -37,7 +40,8 @@ TEST(GapDistance, IsInRadiiAndEndsAtTheReach) {
   std::fill(wall.field.radius.begin(), wall.field.radius.end(), 2.0f);
   std::vector<std::uint8_t> is_plateau;
   for (float kappa : wall.field.kappa) is_plateau.push_back(kappa < 0);
-  const auto distance = distance_to_plateau(wall.mesh.table, wall.mesh.positions, is_plateau, wall.field.radius, 3);
+  const auto distance =
+      distance_to_plateau(wall.mesh.table, wall.mesh.positions, is_plateau, wall.field.radius, 3);
   for (std::size_t v = 0; v < distance.size(); ++v) {
     EXPECT_NEAR(distance[v], std::min(3.0, std::abs(wall.mesh.positions[v].y - 10) / 2), 1e-5);
   }
@@ -53,7 +57,8 @@ TEST(Basins, AreSeparatedByAWall) {
 TEST(Basins, ComeApartAtANarrowGapOnly) {
   for (const auto& [gap, expected] : {std::pair{3, 2u}, {15, 1u}}) {
     const Wall wall(gap);
-    EXPECT_EQ(flood_basins(wall.mesh.table, wall.mesh.positions, wall.field, {.gap = 2.5}).count, expected) << gap;
+    EXPECT_EQ(flood_basins(wall.mesh.table, wall.mesh.positions, wall.field, {.gap = 2.5}).count, expected)
+        << gap;
   }
 }
 
@@ -98,7 +103,8 @@ TEST(SmoothLabels, StraightensAJaggedBorder) {
   const auto cut_edges = [&] {
     int cut = 0;
     for (CornerId c = 0; c < mesh.table.corner_count(); ++c) {
-      cut += labels.label_of_vertex[mesh.table.vertex(next(c))] != labels.label_of_vertex[mesh.table.vertex(prev(c))];
+      cut += labels.label_of_vertex[mesh.table.vertex(next(c))] !=
+             labels.label_of_vertex[mesh.table.vertex(prev(c))];
     }
     return cut;
   };

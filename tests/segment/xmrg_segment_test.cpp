@@ -26,7 +26,8 @@ RegionId region_between(const TestMesh& mesh, const Segmentation& segmentation, 
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     if (mesh.positions[v].z > low && mesh.positions[v].z < high) ++votes[segmentation.region_of_vertex[v]];
   }
-  return std::max_element(votes.begin(), votes.end(), [](auto& a, auto& b) { return a.second < b.second; })->first;
+  return std::max_element(votes.begin(), votes.end(), [](auto& a, auto& b) { return a.second < b.second; })
+      ->first;
 }
 
 TEST(XmrgSegment, ConvexShapesAreOneRegion) {
@@ -47,7 +48,8 @@ TEST(XmrgSegment, CutsADumbbellIntoBallsAndBar) {
   const TestMesh mesh = mesh_of(shapes::dumbbell(0.08));
   const Segmentation result = segmented(mesh);
   EXPECT_EQ(result.region_count, 3u);
-  const std::set<RegionId> parts = {region_between(mesh, result, -0.9, 0.5), region_between(mesh, result, 1.5, 3.5),
+  const std::set<RegionId> parts = {region_between(mesh, result, -0.9, 0.5),
+                                    region_between(mesh, result, 1.5, 3.5),
                                     region_between(mesh, result, 4.5, 5.9)};
   EXPECT_EQ(parts.size(), 3u);
 }
@@ -92,7 +94,8 @@ TEST(XmrgSegment, TakesEveryOddMeshInEveryMode) {
   for (const auto& [name, mesh] : odd_meshes()) {
     SCOPED_TRACE(name);
     for (SegmentMode mode : {SegmentMode::Xmrg, SegmentMode::Cad, SegmentMode::ManganWhitaker}) {
-      for (bool smooth : {false, true}) segmented(mesh, {.mode = mode, .max_region_vertices = 100, .smooth = smooth});
+      for (bool smooth : {false, true})
+        segmented(mesh, {.mode = mode, .max_region_vertices = 100, .smooth = smooth});
     }
   }
 }
@@ -105,7 +108,8 @@ TEST(XmrgSegment, TakesPointsThatCoincide) {
 
 TEST(XmrgSegment, TakesZeroAreaTriangles) {
   TestMesh mesh = mesh_of(shapes::dumbbell(0.1));
-  for (VertexId v = 0; v < mesh.table.vertex_count(); v += 7) {  // collapse every seventh vertex onto a neighbour
+  for (VertexId v = 0; v < mesh.table.vertex_count();
+       v += 7) {  // collapse every seventh vertex onto a neighbour
     mesh.positions[v] = mesh.positions[mesh.table.vertex(next(mesh.table.corner_of_vertex[v]))];
   }
   EXPECT_GE(segmented(mesh).region_count, 3u);
