@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "server/segment/bending.h"
 #include "server/segment/chunks.h"
@@ -56,8 +57,12 @@ HeightField measure_height(const CornerTable& mesh, std::span<const Vec3> positi
       field.kappa[v] = static_cast<float>(height);
     }
   });
-  const int widest = spacing.empty() ? 1 : *std::max_element(spacing.begin(), spacing.end());
-  spread_from_samples(mesh, samples, widest / 2 + 1, field.kappa);
+  // Half the usual spacing lets neighbouring samples meet. The widest would do no better: a few tiny edges
+  // make it 64.
+  const double spacing_sum = std::accumulate(spacing.begin(), spacing.end(), 0.0);
+  const auto mean_spacing =
+      static_cast<int>(spacing_sum / std::max<double>(1, static_cast<double>(spacing.size())));
+  spread_from_samples(mesh, samples, mean_spacing / 2 + 1, field.kappa);
   for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
     if (mesh.corner_of_vertex[v] != kNone && mesh.is_border_vertex(v)) field.kappa[v] = 0;
   }
