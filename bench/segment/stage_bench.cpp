@@ -3,7 +3,8 @@
 // What does each stage of segmentation cost, over building the adjacency in the same process?
 //
 //   stage_bench MODEL...                     default mode, one core, triangles in Morton order
-//   stage_bench --mode classic-3 --threads 2 --repeats 7 MODEL...
+//   stage_bench --mode classic-3 --repeats 7 MODEL...   (dissertation Fig. 4.15 over classic-1, -2, -3, -5; Fig. 4.16)
+//   stage_bench --threads 2 MODEL...
 //   stage_bench --mode streaming --set tau=0.02 MODEL...
 //
 // Times are the least of the repeats, in ms: CPU time, or wall time with more than one thread. Then come
@@ -21,6 +22,10 @@
 #include "server/ingest/spatial_order.h"
 #include "server/segment/check_partition.h"
 #include "server/segment/components.h"
+#include "server/segment/erosion.h"
+#include "server/segment/merge_by_depth.h"
+#include "server/segment/merge_by_size.h"
+#include "server/segment/minima.h"
 #include "server/segment/vertex_measures.h"
 
 namespace selvage::bench {
@@ -96,6 +101,33 @@ void time_stages(const CornerTable& mesh, const std::vector<Vec3>& positions, co
   });
 }
 
+/// The stages of classic mode, and depth-based merging to the same number of regions beside its own (Fig. 4.16).
+void time_stages(const CornerTable& mesh, const std::vector<Vec3>& positions, const ClassicOptions& options,
+                 const ParallelFor& parallel, Stopwatch& time) {
+  const Components components = find_components(mesh);
+  const auto shapes = measure_components(mesh, positions, components);
+  const Features features = time("features", [&] {
+    return extract_features(mesh, positions, components, shapes, options.xmr_rings, parallel);
+  });
+  Minima basins = time("minima", [&] { return label_minima(mesh, find_plateau(features, options.thresholds)); });
+  basins = time("erosion", [&] {
+    erode_plateau(mesh, basins);
+    return basins;
+  });
+  const std::uint32_t regions = time("by size", [&] {
+    std::vector<std::uint32_t> labels = basins.label_of_vertex;
+    return merge_by_size(mesh, labels, basins.count, default_merge_threshold(mesh.vertex_count()));
+  });
+  time("by depth", [&] {
+    Minima merged = basins;
+    std::vector<double> height = features.distance;
+    for (double& h : height) h = -h;
+    merge_by_depth(mesh, height, merged, regions);
+    return merged;
+  });
+  std::printf("%u basins merged to %u regions; ", basins.count, regions);
+}
+
 int bench_model(const Command& command, const Mode& mode, const std::string& path) {
   auto file = read_mesh(path);
   if (!file) return std::fprintf(stderr, "%s\n", file.error().to_string().c_str()), 1;
@@ -115,6 +147,7 @@ int bench_model(const Command& command, const Mode& mode, const std::string& pat
   for (int i = 0; i < command.repeats; ++i) {
     time("adjacency", [&] { return build_corner_table(triangles, mesh.vertex_count()); });
     if (is_xmrg) time_stages(mesh, positions, xmrg_options(options), parallel, time);
+    else time_stages(mesh, positions, ClassicOptions{options.xmr_rings, options.thresholds}, parallel, time);
     result = time("segment", [&] { return segment(mesh, positions, options, parallel); });
     time("regularise",
          [&] { return regularise(mesh, result.region_of_vertex, options.regularise, positions); });
