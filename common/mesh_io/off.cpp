@@ -93,7 +93,7 @@ Failure read_faces(TextScanner& scan, const Counts& counts, MeshBuilder& mesh) {
     scan.at_end();
     std::int64_t corners = 0;
     if (!scan.integer(corners) || corners < 0) return scan.fail_expecting("the number of a face's corners");
-    if (static_cast<std::uint64_t>(corners) > scan.left() / 2) {
+    if (static_cast<std::uint64_t>(corners) > scan.left()) {
       return scan.fail_here("a face claims " + std::to_string(corners) +
                             " corners, more than the rest of the file holds");
     }

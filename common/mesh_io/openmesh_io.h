@@ -12,10 +12,12 @@
 
 namespace selvage {
 
-/// OpenMesh's reader drives a recorder of ours instead of a mesh, so that every index is checked before it is
-/// followed, and the file's own vertices and faces come out. The counts that it delivers are compared with
-/// the file's. Memory stays within a small multiple of `bytes`. Thread-safe (OpenMesh's reader is one global
-/// object: a mutex guards it).
+/// Safe on hostile input: the file's structure is checked before OpenMesh sees it (its reader asserts), and
+/// the reader drives a recorder of ours instead of a mesh, so that every index is checked before it is
+/// followed and the file's own vertices and faces come out. The counts that it delivers are compared with the
+/// file's. Files of a version before 2, custom properties and status flags are refused as Unsupported;
+/// normals, colours and texture coordinates are dropped with a note. Thread-safe: a mutex guards OpenMesh's
+/// one reader.
 Result<MeshFile> parse_om(std::span<const std::byte> bytes);
 
 /// The mesh as an OM file with float64 positions. InvalidArgument where a half-edge mesh cannot hold it (see

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "common/mesh_io/openmesh_io.h"
-#include "common/mesh_io/replace_file.h"
+#include "common/base/replace_file.h"
 #include "common/mesh_io/text_scanner.h"
 
 namespace selvage {

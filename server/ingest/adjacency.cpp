@@ -65,10 +65,8 @@ std::uint32_t pair_crowded_edges(const EdgeGroups& edges, std::span<const Triang
       const bool is_as_first = !runs_oppositely(triangles, sides[0], side);
       (is_as_first != is_turned[triangle_of(side)] ? up : down).push_back(side);
     }
-    if (up.size() <= down.size())
-      pair_up(up, down, across, *pieces);
-    else
-      pair_up(down, up, across, *pieces);
+    if (up.size() > down.size()) std::swap(up, down);
+    pair_up(up, down, across, *pieces);
   }
   return crowded_edges;
 }

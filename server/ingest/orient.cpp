@@ -47,10 +47,11 @@ class PieceGrower {
       for (CornerId c = 3 * triangle; c < 3 * triangle + 3; ++c) {
         const CornerId beyond = across_[c];
         if (beyond == kNone || is_reached_[triangle_of(beyond)]) continue;
-        if (runs_oppositely(triangles_, c, beyond))
+        if (runs_oppositely(triangles_, c, beyond)) {
           reach(triangle_of(beyond), is_turned_[triangle]);
-        else
+        } else {
           flips_.push_back(c);
+        }
       }
     }
   }
@@ -65,8 +66,7 @@ class PieceGrower {
   std::span<const Triangle> triangles_;
   std::span<const CornerId> across_;
   std::vector<bool> is_reached_, is_turned_;
-  std::vector<TriangleId>
-      piece_;  // also the queue: triangles from next_in_piece_ on wait for their neighbours
+  std::vector<TriangleId> piece_;  // also the queue: those from next_in_piece_ on wait for their neighbours
   std::size_t next_in_piece_ = 0;
   std::vector<CornerId> flips_;  // sides of the piece across which the file turns around
 };

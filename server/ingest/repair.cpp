@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/base/disjoint_sets.h"
+#include "common/base/gathered.h"
 #include "server/ingest/adjacency.h"
 #include "server/ingest/orient.h"
 #include "server/ingest/split_fans.h"
@@ -22,13 +23,6 @@ std::vector<TriangleId> triangles_without_repeats(const TriangleSoup& soup) {
     if (!repeats_a_vertex(soup.triangles[t])) kept.push_back(t);
   }
   return kept;
-}
-
-std::vector<Triangle> select(const std::vector<Triangle>& triangles, const std::vector<TriangleId>& chosen) {
-  std::vector<Triangle> selected;
-  selected.reserve(chosen.size());
-  for (TriangleId t : chosen) selected.push_back(triangles[t]);
-  return selected;
 }
 
 /// Duplicates share all their edges, so it is enough to look at each triangle once, at the edge of its two
@@ -88,15 +82,36 @@ std::uint32_t count_components(const CornerTable& table) {
   return components;
 }
 
-void count_vertices(const std::vector<VertexId>& source_of_vertex, std::size_t source_count,
-                    RepairReport& report) {
+/// What the repaired mesh tells beside what was noted on the way.
+void count_outcome(const RepairedMesh& mesh, std::size_t source_count, RepairReport& report) {
   enum : std::uint8_t { Unused, Once, Split };
   std::vector<std::uint8_t> use(source_count, Unused);
-  for (VertexId source : source_of_vertex) use[source] = use[source] == Unused ? Once : Split;
+  for (VertexId source : mesh.source_of_vertex) use[source] = use[source] == Unused ? Once : Split;
   const auto unused = std::count(use.begin(), use.end(), Unused);
   report.unreferenced_vertices = static_cast<std::uint32_t>(unused);
   report.non_manifold_vertices = static_cast<std::uint32_t>(std::count(use.begin(), use.end(), Split));
-  report.vertex_copies = static_cast<std::uint32_t>(source_of_vertex.size() - (source_count - unused));
+  report.vertex_copies = static_cast<std::uint32_t>(mesh.source_of_vertex.size() - (source_count - unused));
+
+  const std::vector<CornerId>& opposite = mesh.table.opposite;
+  report.boundary_edges = static_cast<std::uint32_t>(std::count(opposite.begin(), opposite.end(), kNone));
+  report.components = count_components(mesh.table);
+}
+
+struct Connection {
+  std::vector<CornerId> across;
+  std::vector<bool> is_turned;
+};
+
+/// Decides which triangles are neighbours and which are turned.
+Connection connect(const std::vector<Triangle>& triangles, std::size_t vertex_count, RepairReport& report) {
+  const EdgeGroups edges = group_edges(triangles, static_cast<std::uint32_t>(vertex_count));
+  report.duplicate_triangles = count_duplicates(edges, triangles);
+  std::vector<CornerId> across = join_two_sided_edges(edges, 3 * triangles.size());
+  Orientation orientation = orient(triangles, across);
+  report.turned_triangles = orientation.turned_triangles;
+  report.non_orientable_cuts = orientation.cut_edges;
+  report.non_manifold_edges = pair_crowded_edges(edges, triangles, orientation.is_turned, across);
+  return {std::move(across), std::move(orientation.is_turned)};
 }
 
 }  // namespace
@@ -107,38 +122,26 @@ Result<RepairedMesh> repair(const TriangleSoup& soup) {
     return fail(ErrorCode::LimitExceeded, "more than " + std::to_string(kMaxTriangles) + " triangles");
   }
   RepairedMesh mesh;
-  RepairReport& report = mesh.report;
   mesh.source_of_triangle = triangles_without_repeats(soup);
-  report.dropped_triangles =
-      static_cast<std::uint32_t>(soup.triangles.size() - mesh.source_of_triangle.size());
+  const std::size_t dropped = soup.triangles.size() - mesh.source_of_triangle.size();
+  mesh.report.dropped_triangles = static_cast<std::uint32_t>(dropped);
   if (mesh.source_of_triangle.empty()) {
-    return fail(ErrorCode::BadFile, "no triangle left after dropping " +
-                                        std::to_string(report.dropped_triangles) + " with repeated indices");
+    return fail(ErrorCode::BadFile,
+                "no triangle left after dropping " + std::to_string(dropped) + " with repeated indices");
   }
-  const std::vector<Triangle> triangles = select(soup.triangles, mesh.source_of_triangle);
-  const EdgeGroups edges = group_edges(triangles, static_cast<std::uint32_t>(soup.positions.size()));
-  report.duplicate_triangles = count_duplicates(edges, triangles);
-  report.zero_area_triangles = count_zero_area(triangles, soup.positions);
+  const std::vector<Triangle> triangles = gathered(soup.triangles, mesh.source_of_triangle);
+  mesh.report.zero_area_triangles = count_zero_area(triangles, soup.positions);
 
-  std::vector<CornerId> across = join_two_sided_edges(edges, 3 * triangles.size());
-  Orientation orientation = orient(triangles, across);
-  report.turned_triangles = orientation.turned_triangles;
-  report.non_orientable_cuts = orientation.cut_edges;
-  report.non_manifold_edges = pair_crowded_edges(edges, triangles, orientation.is_turned, across);
-
+  auto [across, is_turned] = connect(triangles, soup.positions.size(), mesh.report);
   std::vector<VertexId> source_of_corner = flatten(triangles);
-  turn(orientation.is_turned, source_of_corner, across);
+  turn(is_turned, source_of_corner, across);
   SplitTable split = split_fans(std::move(source_of_corner), std::move(across));
-  mesh.table = std::move(split.table);
-  mesh.source_of_vertex = std::move(split.source_of_vertex);
-  mesh.is_turned = std::move(orientation.is_turned);
-  mesh.positions.reserve(mesh.source_of_vertex.size());
-  for (VertexId source : mesh.source_of_vertex) mesh.positions.push_back(soup.positions[source]);
 
-  count_vertices(mesh.source_of_vertex, soup.positions.size(), report);
-  report.components = count_components(mesh.table);
-  const auto& opposite = mesh.table.opposite;
-  report.boundary_edges = static_cast<std::uint32_t>(std::count(opposite.begin(), opposite.end(), kNone));
+  mesh.table = std::move(split.table);
+  mesh.positions = gathered(soup.positions, split.source_of_vertex);
+  mesh.source_of_vertex = std::move(split.source_of_vertex);
+  mesh.is_turned = std::move(is_turned);
+  count_outcome(mesh, soup.positions.size(), mesh.report);
   return mesh;
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/base/gathered.h"
+
 namespace selvage {
 namespace {
 
@@ -99,14 +101,6 @@ CornerTable renumbered(const CornerTable& table, const std::vector<TriangleId>& 
     }
   }
   to.set_corner_of_vertex(table.vertex_count());
-  return to;
-}
-
-/// The elements of `values` in the order that `order` names them.
-template <class T>
-std::vector<T> gathered(const std::vector<T>& values, const std::vector<std::uint32_t>& order) {
-  std::vector<T> to(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i) to[i] = values[order[i]];
   return to;
 }
 

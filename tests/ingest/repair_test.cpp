@@ -212,6 +212,17 @@ TEST(Repair, CutsAKleinBottleIntoATubeAtMost) {
   EXPECT_EQ(mesh.report.vertex_copies, 8u);
 }
 
+TEST(Repair, CutsAShuffledKleinBottleAlongFewEdges) {
+  TriangleSoup soup = klein_bottle(30, 100);
+  std::mt19937 random(3);
+  for (Triangle& t : soup.triangles)
+    if (random() % 2) turn(t);
+  const auto mesh = repaired(soup);
+  EXPECT_GE(mesh.report.non_orientable_cuts, 30u) << "its waist, the least possible";
+  EXPECT_LE(mesh.report.non_orientable_cuts, 90u) << "of 9000 edges, half of which the file flips";
+  EXPECT_EQ(mesh.report.components, 1u);
+}
+
 TEST(Repair, ClosesALoneDuplicateIntoAPillow) {
   for (const Triangle& duplicate : {Triangle{0, 1, 2}, {1, 2, 0}, {0, 2, 1}, {1, 0, 2}}) {
     const auto mesh = repaired(soup_of({{0, 1, 2}, duplicate}, 3));

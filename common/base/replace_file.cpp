@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/mesh_io/replace_file.h"
+#include "common/base/replace_file.h"
 
 #include <cerrno>
 #include <cstring>

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include "client/app/selection_options.h"
+
+#include <map>
+
+#include <CLI/CLI.hpp>
+
+namespace selvage {
+
+void SelectionOptions::add_to(CLI::App& command) {
+  const std::map<std::string, Joins> choices = {
+      {"none", Joins::None}, {"closure", Joins::Closure}, {"all", Joins::All}};
+  auto* by_number = command.add_option("--regions", regions, "regions by number, for instance 3,5-7");
+  auto* by_box =
+      command.add_option("--box", box, "regions that meet the box x0,y0,z0,x1,y1,z1, in model units");
+  auto* everything = command.add_flag("--all", all, "the whole model (default)");
+  by_number->excludes(by_box)->excludes(everything);
+  by_box->excludes(everything);
+  command
+      .add_option("--joins", joins,
+                  "none: regions alone; closure: stitched where both sides are chosen; all: also strips to "
+                  "regions not chosen, "
+                  "for later")
+      ->transform(CLI::CheckedTransformer(choices, CLI::ignore_case))
+      ->default_str("closure");
+}
+
+Result<Selection> SelectionOptions::selection() const {
+  Selection selection;
+  selection.joins = joins;
+  if (!regions.empty()) {
+    auto ids = parse_region_list(regions);
+    if (!ids) return forward_error(ids, "--regions");
+    selection.kind = Selection::Kind::Ids;
+    selection.ids = std::move(*ids);
+  } else if (!box.empty()) {
+    auto parsed = parse_box(box);
+    if (!parsed) return forward_error(parsed, "--box");
+    selection.kind = Selection::Kind::Box;
+    selection.box = *parsed;
+  }
+  return selection;
+}
+
+}  // namespace selvage

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "client/session/blocking_client.h"
+
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <thread>
+
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/executor_work_guard.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/use_future.hpp>
+
+namespace selvage {
+namespace {
+
+/// Parts on their way from the network thread to the one that waits in get(). Bounded by the session's
+/// window.
+class PartQueue {
+ public:
+  void push(ReceivedPart part) {
+    const std::lock_guard lock(mutex_);
+    parts_.push_back(std::move(part));
+    changed_.notify_one();
+  }
+
+  void end(Result<GetStats> outcome) {
+    const std::lock_guard lock(mutex_);
+    outcome_ = std::move(outcome);
+    changed_.notify_one();
+  }
+
+  /// Waits for more; what has come since the last call. Empty once all has been given.
+  std::deque<ReceivedPart> wait() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return !parts_.empty() || outcome_; });
+    return std::exchange(parts_, {});
+  }
+
+  Result<GetStats> outcome() {
+    const std::lock_guard lock(mutex_);
+    return *outcome_;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<ReceivedPart> parts_;
+  std::optional<Result<GetStats>> outcome_;
+};
+
+/// Asks to stop when its scope is left, however that happens.
+class StopAtExit {
+ public:
+  explicit StopAtExit(std::stop_source& source) : source_(source) {}
+  ~StopAtExit() { source_.request_stop(); }
+  StopAtExit(const StopAtExit&) = delete;
+  StopAtExit& operator=(const StopAtExit&) = delete;
+
+ private:
+  std::stop_source& source_;
+};
+
+}  // namespace
+
+class BlockingClient::Network {
+ public:
+  Network() : work_(asio::make_work_guard(io_)), thread_([this] { io_.run(); }) {}
+
+  ~Network() {
+    if (session_) asio::post(io_, [session = std::move(session_)] { session->close(); });
+    work_.reset();
+  }
+
+  template <class T>
+  T wait_for(asio::awaitable<T> work) {
+    return asio::co_spawn(io_, std::move(work), asio::use_future).get();
+  }
+
+  Result<void> connect(const HostPort& server, ClientOptions options) {
+    auto session = wait_for(ClientSession::connect(server, std::move(options)));
+    if (!session) return forward_error(session);
+    session_ = std::move(*session);
+    return {};
+  }
+
+  ClientSession& session() { return *session_; }
+
+  /// Parts and at last the outcome go to `queue`.
+  void begin_get(GetRequest request, std::shared_ptr<PartQueue> queue, std::stop_token stop) {
+    auto on_part = [queue](ReceivedPart part) { queue->push(std::move(part)); };
+    auto on_end = [queue](std::exception_ptr thrown, Result<GetStats> outcome) {
+      if (thrown) outcome = fail(ErrorCode::LimitExceeded, "out of memory while receiving");
+      queue->end(std::move(outcome));
+    };
+    asio::co_spawn(io_, session_->get(std::move(request), std::move(on_part), std::move(stop)),
+                   std::move(on_end));
+  }
+
+ private:
+  asio::io_context io_{1};
+  asio::executor_work_guard<asio::io_context::executor_type> work_;
+  std::shared_ptr<ClientSession> session_;
+  std::jthread thread_;  ///< last: joined before what it uses goes
+};
+
+BlockingClient::BlockingClient(std::unique_ptr<Network> network) : network_(std::move(network)) {}
+BlockingClient::~BlockingClient() = default;
+BlockingClient::BlockingClient(BlockingClient&&) noexcept = default;
+BlockingClient& BlockingClient::operator=(BlockingClient&&) noexcept = default;
+
+Result<BlockingClient> BlockingClient::connect(const HostPort& server, ClientOptions options) {
+  auto network = std::make_unique<Network>();
+  auto connected = network->connect(server, std::move(options));
+  if (!connected) return forward_error(connected);
+  return BlockingClient(std::move(network));
+}
+
+Result<std::vector<ModelInfo>> BlockingClient::list() {
+  return network_->wait_for(network_->session().list());
+}
+
+Result<std::shared_ptr<const Manifest>> BlockingClient::open(const std::string& name) {
+  return network_->wait_for(network_->session().open(name));
+}
+
+Result<std::chrono::steady_clock::duration> BlockingClient::ping() {
+  return network_->wait_for(network_->session().ping());
+}
+
+Result<GetStats> BlockingClient::get(GetRequest request, const OnPart& on_part, std::stop_token stop) {
+  const auto queue = std::make_shared<PartQueue>();
+  std::stop_source source;
+  const StopAtExit stops(source);
+  const std::stop_callback passes_on(stop, [&source] { source.request_stop(); });
+  network_->begin_get(std::move(request), queue, source.get_token());
+  for (;;) {
+    std::deque<ReceivedPart> parts = queue->wait();
+    if (parts.empty()) return queue->outcome();
+    for (; !parts.empty(); parts.pop_front()) {
+      auto taken = on_part(std::move(parts.front()));
+      if (!taken) return forward_error(taken);
+    }
+  }
+}
+
+}  // namespace selvage

@@ -1,0 +1,386 @@
+// SPDX-License-Identifier: MIT
+#include "client/session/client_session.h"
+
+#include <algorithm>
+
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/detached.hpp>
+#include <boost/asio/experimental/awaitable_operators.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+
+#include "common/net/await.h"
+#include "common/net/frame_io.h"
+
+namespace selvage {
+namespace {
+
+constexpr std::size_t kReadSize = 256u << 10;
+/// Together they keep a GetParts below the size of a frame, whatever the server says its limits are.
+constexpr std::size_t kMaxIds = 65'536;
+constexpr std::size_t kMaxHave = 32'768;
+
+/// A server that wants to hear from us more often than this is not taken at its word.
+constexpr std::uint32_t kMinIdleTimeoutMs = 1000;
+
+/// The frame after which nothing comes for its request.
+bool ends_answer(FrameType type) {
+  return type == FrameType::RequestEnd || type == FrameType::Error || type == FrameType::Models ||
+         type == FrameType::Pong;
+}
+
+/// The server's words on why it says no.
+Error error_in(const Frame& frame) {
+  auto message = parse<ErrorMessage>(frame.payload);
+  return message ? std::move(message->error) : std::move(message.error());
+}
+
+}  // namespace
+
+// ---- life
+// ----------------------------------------------------------------------------------------------------
+
+ClientSession::ClientSession(std::unique_ptr<ByteStream> stream, ClientOptions options)
+    : stream_(std::move(stream)),
+      options_(std::move(options)),
+      incoming_(kMaxPayload, kReadSize),
+      wake_writer_(stream_->executor()),
+      greeting_(stream_->executor()),
+      window_(options_.window_bytes) {}
+
+asio::awaitable<Result<std::shared_ptr<ClientSession>>> ClientSession::connect(HostPort server,
+                                                                               ClientOptions options) {
+  Result<std::unique_ptr<ByteStream>> stream =
+      co_await connect_tcp(server.host, server.port, options.connect_timeout);
+  if (!stream) co_return forward_error(stream);
+  co_return co_await start(std::move(*stream), std::move(options));
+}
+
+asio::awaitable<Result<std::shared_ptr<ClientSession>>> ClientSession::start(
+    std::unique_ptr<ByteStream> stream, ClientOptions options) {
+  using namespace asio::experimental::awaitable_operators;
+  std::shared_ptr<ClientSession> session(new ClientSession(std::move(stream), std::move(options)));
+  session->greeting_.expires_after(session->options_.connect_timeout);
+  auto greeting = session->greet();
+  auto silence = session->greeting_.expired();
+  auto first = co_await (std::move(greeting) || std::move(silence));
+  Result<void> greeted;
+  if (first.index() == 0) {
+    greeted = std::get<0>(first);
+  } else {
+    greeted = fail(ErrorCode::Timeout, session->stream_->peer() + " does not answer like a selvage server");
+  }
+  if (!greeted) {
+    session->stream_->close();
+    co_return forward_error(greeted);
+  }
+  auto notice = [weak = session->weak_from_this(), executor = session->executor()] {
+    asio::post(executor, [weak] {
+      if (const auto alive = weak.lock()) alive->grant();
+    });
+  };
+  session->consumed_ = std::make_shared<ConsumedBytes>(std::move(notice));
+  asio::co_spawn(session->executor(), session->run(), asio::detached);
+  co_return session;
+}
+
+asio::awaitable<Result<void>> ClientSession::greet() {
+  Hello hello;
+  hello.software = options_.software;
+  hello.initial_credit = options_.window_bytes;
+  const std::vector<std::byte> bytes = to_frame(hello, 0);
+  const Pieces pieces{bytes};
+  Result<void> written = co_await stream_->write(pieces);
+  if (!written) co_return written;
+  Result<std::optional<Frame>> frame = co_await read_frame(*stream_, incoming_);
+  if (!frame) co_return forward_error(frame);
+  if (!frame->has_value()) co_return fail(ErrorCode::Unavailable, "the server closed the connection");
+  if ((*frame)->is(FrameType::Error)) co_return tl::unexpected(error_in(**frame));
+  if (!(*frame)->is(FrameType::HelloAck)) co_return fail(ErrorCode::Protocol, "the server does not greet");
+  Result<HelloAck> ack = parse<HelloAck>((*frame)->payload);
+  if (!ack) co_return forward_error(ack);
+  if (ack->version != kProtocolVersion) {
+    co_return fail(ErrorCode::Unsupported, "the server chose version " + std::to_string(ack->version));
+  }
+  server_ = std::move(*ack);
+  co_return Result<void>();
+}
+
+asio::awaitable<void> ClientSession::run() {
+  using namespace asio::experimental::awaitable_operators;
+  const std::shared_ptr<ClientSession> self = shared_from_this();
+  last_heard_ = std::chrono::steady_clock::now();
+
+  auto both = read_loop() && write_loop();
+  auto silence = heartbeat();
+  co_await (std::move(both) || std::move(silence));
+  stream_->close();
+  consumed_->close();
+  for (const auto& [id, pending] : pending_) settle(*pending, tl::unexpected(*ended_));
+}
+
+/// The first reason counts: what follows are its consequences.
+void ClientSession::end(Error reason) {
+  if (ended_) return;
+  if (going_away_ && reason.code == ErrorCode::Io) reason = {ErrorCode::Unavailable, *going_away_};
+  ended_ = std::move(reason);
+}
+
+void ClientSession::close() {
+  end({ErrorCode::Cancelled, "the session was closed"});
+  stream_->close();
+}
+
+asio::awaitable<void> ClientSession::heartbeat() {
+  const std::chrono::milliseconds idle(std::max(server_.idle_timeout_ms, kMinIdleTimeoutMs));
+  const auto interval = std::min<std::chrono::milliseconds>(options_.silence_timeout, idle) / 3;
+  asio::steady_timer timer(stream_->executor());
+  for (;;) {
+    timer.expires_after(interval);
+    co_await timer.async_wait(kAwait);
+    if (std::chrono::steady_clock::now() - last_heard_ > options_.silence_timeout) break;
+    send(Ping{}, 0);
+  }
+  end({ErrorCode::Timeout, "nothing heard from " + stream_->peer() + " for too long"});
+}
+
+// ---- reading
+// -------------------------------------------------------------------------------------------------
+
+asio::awaitable<void> ClientSession::read_loop() {
+  while (!ended_) {
+    Result<std::optional<Frame>> frame = co_await read_frame(*stream_, incoming_);
+    if (!frame) {
+      end(std::move(frame.error()));
+    } else if (!frame->has_value()) {
+      end({ErrorCode::Io, "the server closed the connection"});
+    } else {
+      last_heard_ = std::chrono::steady_clock::now();
+      Result<void> handled = handle(**frame);
+      if (!handled) end(std::move(handled.error()));
+    }
+  }
+  wake_writer_.notify();
+}
+
+/// Fails only for what ends the connection.
+Result<void> ClientSession::handle(const Frame& frame) {
+  if (frame.is(FrameType::Data) && !window_.receive(frame.payload.size())) {
+    return fail(ErrorCode::Protocol, "the server sends more than it was granted");
+  }
+  auto handled = frame.header.request_id == 0 ? handle_connection_frame(frame) : handle_answer(frame);
+  grant();
+  return handled;
+}
+
+Result<void> ClientSession::handle_connection_frame(const Frame& frame) {
+  switch (frame.header.type) {
+    case FrameType::Pong:
+      return {};
+    case FrameType::Error:
+      return tl::unexpected(error_in(frame));
+    case FrameType::GoAway: {
+      auto message = parse<GoAway>(frame.payload);
+      if (!message) return forward_error(message);
+      going_away_ = std::move(message->reason);
+      return {};
+    }
+    default:
+      return fail(ErrorCode::Protocol, "the server sends " + std::string(to_string(frame.header.type)));
+  }
+}
+
+Result<void> ClientSession::handle_answer(const Frame& frame) {
+  const std::uint32_t id = frame.header.request_id;
+  const bool is_last = ends_answer(frame.header.type);
+  if (abandoned_.contains(id)) {
+    if (is_last) abandoned_.erase(id);
+    return {};
+  }
+  const auto found = pending_.find(id);
+  if (found == pending_.end()) return fail(ErrorCode::Protocol, "the server answers what was not asked");
+  Pending& pending = *found->second;
+  if (pending.outcome) return fail(ErrorCode::Protocol, "the server goes on after the end of an answer");
+  if (frame.is(FrameType::Error)) return settle(pending, tl::unexpected(error_in(frame))), Result<void>();
+  if (frame.header.seq != pending.next_seq++)
+    return fail(ErrorCode::Protocol, "frames of an answer are missing");
+
+  auto complete = pending.reader.on_frame(frame);
+  if (complete) {
+    if (*complete) settle(pending, {});
+    return {};
+  }
+  if (complete.error().code == ErrorCode::Protocol) return forward_error(complete);
+  // A request that failed on our side: the rest of its answer is not wanted.
+  settle(pending, tl::unexpected(complete.error()));
+  if (!is_last) abandon(id);
+  return {};
+}
+
+void ClientSession::grant() {
+  window_.release(consumed_->take());
+  if (const std::uint32_t bytes = window_.take_grant()) send(Credit{bytes}, 0);
+}
+
+// ---- writing
+// -------------------------------------------------------------------------------------------------
+
+template <class Message>
+void ClientSession::send(const Message& message, std::uint32_t request_id) {
+  append_frame(outgoing_, message, request_id);
+  wake_writer_.notify();
+}
+
+/// A write that fails says less than what the reader is about to see, so it ends nothing by itself.
+asio::awaitable<void> ClientSession::write_loop() {
+  while (!ended_) {
+    if (outgoing_.empty()) {
+      co_await wake_writer_.wait();
+      continue;
+    }
+    const std::vector<std::byte> bytes = std::exchange(outgoing_, {});
+    const Pieces pieces{bytes};
+    const Result<void> written = co_await stream_->write(pieces);
+    if (!written) co_return;
+  }
+}
+
+// ---- requests
+// ------------------------------------------------------------------------------------------------
+
+/// Registers a request for as long as somebody waits for it. If that ends before the answer has come, the
+/// rest is cancelled and dropped.
+class ClientSession::PendingEntry {
+ public:
+  PendingEntry(std::shared_ptr<ClientSession> session, Pending& pending)
+      : session_(std::move(session)), pending_(pending) {
+    do {
+      id_ = ++session_->last_request_id_;
+    } while (id_ == 0 || session_->pending_.contains(id_) || session_->abandoned_.contains(id_));
+    session_->pending_.emplace(id_, &pending_);
+  }
+  ~PendingEntry() {
+    session_->pending_.erase(id_);
+    if (!pending_.outcome) session_->abandon(id_);
+  }
+  PendingEntry(const PendingEntry&) = delete;
+  PendingEntry& operator=(const PendingEntry&) = delete;
+
+  std::uint32_t id() const { return id_; }
+
+ private:
+  std::shared_ptr<ClientSession> session_;
+  Pending& pending_;
+  std::uint32_t id_ = 0;
+};
+
+template <class Message>
+asio::awaitable<Result<void>> ClientSession::exchange(Message message, AnswerReader& reader,
+                                                      std::stop_token stop) {
+  if (ended_) co_return tl::unexpected(*ended_);
+  if (going_away_) co_return fail(ErrorCode::Unavailable, *going_away_);
+  if (stop.stop_requested()) co_return fail(ErrorCode::Cancelled, "cancelled");
+  Pending pending{reader, Signal(stream_->executor()), std::nullopt, 0};
+  const PendingEntry entry(shared_from_this(), pending);
+  const std::vector<std::byte> frame = to_frame(message, entry.id());
+  if (frame.size() - kFrameHeaderSize > server_.max_message_bytes) {
+    pending.outcome =
+        fail(ErrorCode::LimitExceeded, "the request is larger than the server accepts; ask for less");
+    co_return *pending.outcome;
+  }
+  outgoing_.insert(outgoing_.end(), frame.begin(), frame.end());
+  wake_writer_.notify();
+
+  auto on_stop = [weak = weak_from_this(), executor = executor(), id = entry.id()] {
+    asio::post(executor, [weak, id] {
+      if (const auto session = weak.lock()) session->cancel(id);
+    });
+  };
+  const std::stop_callback cancels(stop, std::move(on_stop));
+  while (!pending.outcome) co_await pending.answered.wait();
+  co_return *pending.outcome;
+}
+
+void ClientSession::settle(Pending& pending, Result<void> outcome) {
+  if (!pending.outcome) pending.outcome = std::move(outcome);
+  pending.answered.notify();
+}
+
+void ClientSession::cancel(std::uint32_t request_id) {
+  const auto found = pending_.find(request_id);
+  if (found == pending_.end() || found->second->outcome) return;
+  settle(*found->second, fail(ErrorCode::Cancelled, "cancelled"));
+  abandon(request_id);
+}
+
+/// The server may have begun to answer: it is told to stop, and what comes until it does is dropped.
+void ClientSession::abandon(std::uint32_t request_id) {
+  if (ended_) return;
+  abandoned_.insert(request_id);
+  send(Cancel{}, request_id);
+}
+
+asio::awaitable<Result<std::vector<ModelInfo>>> ClientSession::list() {
+  std::vector<ModelInfo> all;
+  for (bool more = true; more;) {
+    ModelsReader reader;
+    ListModels request;
+    if (!all.empty()) request.after = all.back().name;
+    Result<void> answered = co_await exchange(std::move(request), reader, {});
+    if (!answered) co_return forward_error(answered);
+    Models page = reader.take();
+    if (!all.empty() && !page.models.empty() && page.models.front().name <= all.back().name) {
+      co_return fail(ErrorCode::BadStream, "the server's list of models goes in circles");
+    }
+    std::ranges::move(page.models, std::back_inserter(all));
+    more = page.more;
+  }
+  co_return all;
+}
+
+asio::awaitable<Result<std::shared_ptr<const Manifest>>> ClientSession::open(std::string name) {
+  ManifestReader reader(name, options_.max_directory_bytes);
+  OpenModel request{std::move(name)};
+  Result<void> answered = co_await exchange(std::move(request), reader, {});
+  if (!answered) co_return forward_error(answered);
+  Result<Manifest> manifest = reader.manifest();
+  if (!manifest) co_return forward_error(manifest);
+  co_return std::make_shared<const Manifest>(std::move(*manifest));
+}
+
+asio::awaitable<Result<GetStats>> ClientSession::get(GetRequest request, OnPart on_part,
+                                                     std::stop_token stop) {
+  if (request.selection.ids.size() > std::min<std::size_t>(server_.max_ids, kMaxIds)) {
+    co_return fail(ErrorCode::LimitExceeded, "too many region ids in one request; ask for fewer at a time");
+  }
+  // The rest is sent again, which costs time and nothing else.
+  if (request.have.size() > kMaxHave) request.have.resize(kMaxHave);
+
+  auto deliver = [this, &on_part](const PartId& id, std::vector<std::byte> bytes) {
+    const std::uint64_t size = bytes.size();
+    window_.hold(size);
+    on_part({id, std::move(bytes), Receipt(consumed_, size)});
+  };
+  Result<PartsReader> reader = PartsReader::for_request(request, std::move(deliver));
+  if (!reader) co_return forward_error(reader);
+  if (!options_.check_hashes) reader->skip_hashes();
+  GetParts message{request.manifest->name,
+                   request.manifest->pack_id,
+                   std::move(request.selection),
+                   std::move(request.have),
+                   {},
+                   request.urgency};
+  Result<void> answered = co_await exchange(std::move(message), *reader, std::move(stop));
+  if (!answered) co_return forward_error(answered);
+  co_return reader->stats();
+}
+
+asio::awaitable<Result<std::chrono::steady_clock::duration>> ClientSession::ping() {
+  const auto start = std::chrono::steady_clock::now();
+  PongReader reader;
+  Result<void> answered = co_await exchange(Ping{}, reader, {});
+  if (!answered) co_return forward_error(answered);
+  co_return std::chrono::steady_clock::now() - start;
+}
+
+}  // namespace selvage

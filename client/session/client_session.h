@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+//
+// One connection to a server, for coroutines. (blocking_client.h is the same for plain threads.)
+//
+//     auto session = co_await ClientSession::connect({"example.org", 7878}, {});
+//     auto manifest = co_await (*session)->open("bunny");
+//     auto stats = co_await (*session)->get({*manifest, {.ids = {3, 5}}}, [](ReceivedPart part) { ... });
+//     (*session)->close();
+//
+// One coroutine reads, one writes; requests may overlap, each waits for its own answer. When the connection
+// ends, whatever the cause, every request in flight fails with it.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "client/session/answer_reader.h"
+#include "client/session/credit_window.h"
+#include "common/net/byte_stream.h"
+#include "common/net/deadline.h"
+#include "common/net/frame.h"
+#include "common/net/messages.h"
+#include "common/net/signal.h"
+#include "common/net/tcp_stream.h"
+
+namespace selvage {
+
+struct ClientOptions {
+  std::string software = "selvage";
+  std::chrono::milliseconds connect_timeout{10'000};  ///< for the connection, and again for the greeting
+  std::chrono::milliseconds silence_timeout{30'000};  ///< a server that says nothing for so long is gone
+  std::uint64_t window_bytes = 8u << 20;              ///< see credit_window.h; at least kMinInitialCredit
+  std::uint64_t max_directory_bytes = 512u << 20;
+  bool check_hashes = true;  ///< false only for load tests
+};
+
+/// A whole part with the right hash. Destroying it (or its receipt) tells the server that there is room for
+/// more: keep it until it is decoded, on whichever thread that happens.
+struct ReceivedPart {
+  PartId id;
+  std::vector<std::byte> bytes;
+  Receipt receipt;
+};
+
+/// Single-strand: call everything on executor(). It lives until close() is called or the connection ends,
+/// even when nobody holds it.
+class ClientSession : public std::enable_shared_from_this<ClientSession> {
+ public:
+  /// Connects and greets. NotFound, Unavailable, Timeout; Unsupported if the versions do not meet; Protocol.
+  /// The session's strand is the executor of the caller, which must be one.
+  static asio::awaitable<Result<std::shared_ptr<ClientSession>>> connect(HostPort server,
+                                                                         ClientOptions options);
+  /// The same over a stream that is connected already.
+  static asio::awaitable<Result<std::shared_ptr<ClientSession>>> start(std::unique_ptr<ByteStream> stream,
+                                                                       ClientOptions options);
+
+  /// All models, ascending by name.
+  asio::awaitable<Result<std::vector<ModelInfo>>> list();
+
+  /// NotFound; BadStream if the server's pack is damaged or its directory is not what it says.
+  asio::awaitable<Result<std::shared_ptr<const Manifest>>> open(std::string name);
+
+  /// Called on the strand with each part as it completes; must not block. Parts may come in any order.
+  using OnPart = std::function<void(ReceivedPart)>;
+
+  /// Fetches the selected parts. ModelChanged if the server has another pack by now; BadStream if a part is
+  /// not what the directory lists; Cancelled soon after `stop` is requested (from any thread), and no part
+  /// after it.
+  asio::awaitable<Result<GetStats>> get(GetRequest request, OnPart on_part, std::stop_token stop = {});
+
+  /// How long a round trip takes.
+  asio::awaitable<Result<std::chrono::steady_clock::duration>> ping();
+
+  /// Ends the connection; requests in flight fail with Cancelled.
+  void close();
+
+  asio::any_io_executor executor() { return stream_->executor(); }
+  const HelloAck& server() const { return server_; }
+
+ private:
+  /// A request that waits for its answer; lives in the coroutine that waits.
+  struct Pending {
+    AnswerReader& reader;
+    Signal answered;
+    std::optional<Result<void>> outcome;
+    std::uint32_t next_seq = 0;
+  };
+  class PendingEntry;
+
+  ClientSession(std::unique_ptr<ByteStream> stream, ClientOptions options);
+
+  asio::awaitable<Result<void>> greet();
+  asio::awaitable<void> run();
+  asio::awaitable<void> read_loop();
+  asio::awaitable<void> write_loop();
+  asio::awaitable<void> heartbeat();
+
+  Result<void> handle(const Frame& frame);
+  Result<void> handle_connection_frame(const Frame& frame);
+  Result<void> handle_answer(const Frame& frame);
+  void grant();
+
+  template <class Message>
+  asio::awaitable<Result<void>> exchange(Message message, AnswerReader& reader, std::stop_token stop);
+  template <class Message>
+  void send(const Message& message, std::uint32_t request_id);
+  void cancel(std::uint32_t request_id);
+  void settle(Pending& pending, Result<void> outcome);
+  void abandon(std::uint32_t request_id);
+  void end(Error reason);
+
+  std::unique_ptr<ByteStream> stream_;
+  const ClientOptions options_;
+  HelloAck server_;
+
+  FrameBuffer incoming_;
+  std::vector<std::byte> outgoing_;  ///< whole frames for the next write
+  Signal wake_writer_;
+  Deadline greeting_;
+  std::chrono::steady_clock::time_point last_heard_;
+
+  std::uint32_t last_request_id_ = 0;
+  std::map<std::uint32_t, Pending*> pending_;
+  std::set<std::uint32_t> abandoned_;  ///< cancelled without waiting: what still comes for them is dropped
+  CreditWindow window_;
+  std::shared_ptr<ConsumedBytes> consumed_;
+
+  std::optional<std::string> going_away_;  ///< the server's reason
+  std::optional<Error> ended_;             ///< why there is no connection any more
+};
+
+}  // namespace selvage

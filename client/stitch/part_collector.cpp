@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "client/stitch/part_collector.h"
+
+#include <string>
+
+#include "client/decode/bundle_decoder.h"
+#include "client/decode/region_decoder.h"
+
+namespace selvage {
+
+Result<void> PartCollector::add(const PartId& id, std::span<const std::byte> bytes) {
+  if (directory_.find(id) == nullptr)
+    return fail(ErrorCode::BadStream, "a part that the directory does not list");
+  const bool is_region = id.kind == PartKind::Region;
+  auto ok = is_region ? add_region(id.region, id.level, bytes) : add_bundle(id.region, bytes);
+  if (!ok) return forward_error(ok, (is_region ? "region " : "bundle ") + std::to_string(id.region));
+  return {};
+}
+
+Result<void> PartCollector::add_region(RegionId region, std::uint8_t level,
+                                       std::span<const std::byte> bytes) {
+  const LevelEntry& entry = directory_.regions[region].levels[level];
+  auto mesh = decode_region(bytes, {.vertices = entry.vertices, .triangles = entry.triangles});
+  if (!mesh) return forward_error(mesh);
+  const std::scoped_lock lock(mutex_);
+  return stitcher_.add_region(region, std::move(*mesh));
+}
+
+Result<void> PartCollector::add_bundle(RegionId region, std::span<const std::byte> bytes) {
+  const RegionEntry& entry = directory_.regions[region];
+  std::vector<BundleTopology::Region> regions;
+  for (RegionId id : entry.lower_neighbours) regions.push_back({id, directory_.regions[id].loop_lengths});
+  regions.push_back({region, entry.loop_lengths});
+  auto triangles = decode_bundle(bytes, BundleTopology(std::move(regions)), entry.bundle_triangles);
+  if (!triangles) return forward_error(triangles);
+  const std::scoped_lock lock(mutex_);
+  return stitcher_.add_bundle(region, std::move(*triangles));
+}
+
+StitchedMesh PartCollector::mesh() const {
+  const std::scoped_lock lock(mutex_);
+  return stitcher_.mesh();
+}
+
+std::size_t PartCollector::region_count() const {
+  const std::scoped_lock lock(mutex_);
+  return stitcher_.regions().size();
+}
+
+}  // namespace selvage

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+//
+// From a part's bytes to the stitcher: decodes each as it comes, on whatever thread it comes.
+#pragma once
+
+#include <cstddef>
+#include <mutex>
+#include <span>
+
+#include "client/stitch/stitcher.h"
+
+namespace selvage {
+
+/// Thread-safe: parts decode at the same time, only adding them to the stitcher is one at a time.
+class PartCollector {
+ public:
+  /// `directory` is borrowed and must outlive the collector.
+  explicit PartCollector(const Directory& directory) : directory_(directory), stitcher_(directory) {}
+
+  /// Decodes a part whose hash was checked. BadStream names the part that is malformed.
+  Result<void> add(const PartId& id, std::span<const std::byte> bytes);
+
+  StitchedMesh mesh() const;
+  std::size_t region_count() const;
+
+ private:
+  Result<void> add_region(RegionId region, std::uint8_t level, std::span<const std::byte> bytes);
+  Result<void> add_bundle(RegionId region, std::span<const std::byte> bytes);
+
+  const Directory& directory_;
+  mutable std::mutex mutex_;
+  Stitcher stitcher_;
+};
+
+}  // namespace selvage

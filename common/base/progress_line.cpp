@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#include "common/base/progress_line.h"
+
+#include <cstdio>
+
+#include <unistd.h>
+
+namespace selvage {
+
+ProgressLine::ProgressLine() : is_terminal_(::isatty(STDERR_FILENO) == 1) {}
+
+ProgressLine::~ProgressLine() { wipe(); }
+
+void ProgressLine::show(const std::string& text) {
+  const auto now = std::chrono::steady_clock::now();
+  if (!is_terminal_ || (is_shown_ && now - last_ < std::chrono::milliseconds(100))) return;
+  std::fprintf(stderr, "\r\033[K%s", text.c_str());
+  std::fflush(stderr);
+  is_shown_ = true;
+  last_ = now;
+}
+
+void ProgressLine::wipe() {
+  if (!is_shown_) return;
+  std::fprintf(stderr, "\r\033[K");
+  std::fflush(stderr);
+  is_shown_ = false;
+}
+
+}  // namespace selvage

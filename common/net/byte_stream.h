@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+//
+// A connection as sessions see it: bytes in order, both ways. TCP is one (tcp_stream.h); tests have another
+// in memory, which fails where they want it to. TLS and WebSocket are to come.
+//
+// Single-strand: everything is called, and completes, on executor(). One read and one write may be under way
+// at the same time.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <boost/asio/any_io_executor.hpp>
+#include <boost/asio/awaitable.hpp>
+
+#include "common/base/result.h"
+
+namespace selvage {
+
+namespace asio = boost::asio;
+
+/// Pieces that are written one after the other, as if they were one.
+using Pieces = std::vector<std::span<const std::byte>>;
+
+class ByteStream {
+ public:
+  virtual ~ByteStream() = default;
+
+  /// Reads at least one byte into `into`, which is not empty; 0 when the peer has ended the stream.
+  virtual asio::awaitable<Result<std::size_t>> read_some(std::span<std::byte> into) = 0;
+
+  /// Writes all of it. The pieces and what they point at stay until it is done.
+  virtual asio::awaitable<Result<void>> write(const Pieces& pieces) = 0;
+
+  /// Ends both directions; what is under way fails with Cancelled. May be called again.
+  virtual void close() = 0;
+
+  virtual asio::any_io_executor executor() = 0;
+
+  /// The other side, for logs: "127.0.0.1:4711".
+  virtual std::string peer() const = 0;
+};
+
+}  // namespace selvage

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+//
+// "Something changed, look again" from one coroutine to another on the same strand.
+#pragma once
+
+#include <boost/asio/awaitable.hpp>
+#include <boost/asio/steady_timer.hpp>
+
+namespace selvage {
+
+/// Single-strand, one waiter at a time. A notify() before the wait is not lost; several count as one.
+class Signal {
+ public:
+  explicit Signal(boost::asio::any_io_executor executor);
+
+  void notify();
+
+  /// Returns once notified, or when the waiting coroutine is cancelled.
+  boost::asio::awaitable<void> wait();
+
+ private:
+  boost::asio::steady_timer timer_;  ///< never expires: being cancelled is the event
+  bool notified_ = false;
+};
+
+}  // namespace selvage

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include <boost/asio/ip/tcp.hpp>
+
+#include "common/net/byte_stream.h"
+
+namespace selvage {
+
+/// Takes over a connected socket, whose executor must be a strand (or the only thread of its io_context).
+/// Sets TCP_NODELAY, since a session gathers what it sends, and a low TCP_NOTSENT_LOWAT, so that what waits
+/// to be sent waits in the session, where it can still be cancelled.
+std::unique_ptr<ByteStream> make_tcp_stream(asio::ip::tcp::socket socket);
+
+/// Resolves and connects, trying each address. NotFound: no such host; Unavailable: nobody listens there;
+/// Timeout.
+asio::awaitable<Result<std::unique_ptr<ByteStream>>> connect_tcp(std::string host, std::uint16_t port,
+                                                                 std::chrono::steady_clock::duration timeout);
+
+/// "host:port" or "[v6]:port"; the host may be left out (":8080"), then `default_host` is meant.
+struct HostPort {
+  std::string host;
+  std::uint16_t port = 0;
+
+  std::string to_string() const;
+};
+Result<HostPort> parse_host_port(std::string_view text, std::string_view default_host = "127.0.0.1");
+
+}  // namespace selvage

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "server/app/build_command.h"
+
+#include <csignal>
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <sys/resource.h>
+
+#include "common/base/progress_line.h"
+#include "common/base/replace_file.h"
+#include "common/mesh_io/read_mesh.h"
+#include "common/pack/pack.h"
+#include "server/ingest/ingest.h"
+
+namespace selvage {
+namespace {
+
+volatile std::sig_atomic_t g_interrupted = 0;
+
+std::filesystem::path output_path(const BuildCommand& command) {
+  if (!command.pack.empty()) return command.pack;
+  return command.store / (command.model.stem().string() + ".selvage");
+}
+
+std::string count_of(std::uint32_t count, const char* one, const char* many) {
+  return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
+void print_repair(const RepairReport& report, const std::string& file) {
+  const auto note = [&](std::uint32_t count, const char* one, const char* many, const char* what) {
+    if (count > 0) fmt::print(stderr, "{}: {} {}\n", file, count_of(count, one, many), what);
+  };
+  note(report.dropped_triangles, "triangle", "triangles", "with a repeated vertex dropped");
+  note(report.unreferenced_vertices, "vertex", "vertices", "that no triangle uses dropped");
+  note(report.duplicate_triangles, "triangle", "triangles", "that repeat another kept");
+  note(report.zero_area_triangles, "triangle", "triangles", "without area kept");
+  note(report.turned_triangles, "triangle", "triangles", "turned for coding; clients turn them back");
+  note(report.vertex_copies, "copy", "copies",
+       "of vertices made at non-manifold spots; clients weld them again");
+}
+
+void print_json(const BuildCommand& command, const std::filesystem::path& path, const IngestedModel& model,
+                const Pack& pack) {
+  const Directory& directory = pack.directory();
+  nlohmann::ordered_json json = {
+      {"pack", path.string()},
+      {"id", pack.id().to_hex()},
+      {"name", directory.name},
+      {"bytes", pack.bytes().size()},
+      {"bits", command.bits},
+      {"regions", model.regions},
+      {"vertices", directory.vertices},
+      {"triangles", directory.triangles},
+      {"boundary_triangles", directory.boundary_triangles},
+      {"loose_vertices", model.loose_vertices},
+      {"dropped_triangles", model.repair.dropped_triangles},
+      {"unreferenced_vertices", model.repair.unreferenced_vertices},
+      {"turned_triangles", model.repair.turned_triangles},
+      {"vertex_copies", model.repair.vertex_copies},
+  };
+  for (const StageTime& time : model.times) json["seconds"][time.stage] = time.seconds.count();
+  fmt::print("{}\n", json.dump(2));
+}
+
+double peak_memory_mib() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+void print_summary(const std::filesystem::path& path, const IngestedModel& model, const Pack& pack) {
+  const Directory& directory = pack.directory();
+  const auto bytes = static_cast<double>(pack.bytes().size());
+  double total = 0;
+  std::string stages;
+  for (const StageTime& time : model.times) {
+    total += time.seconds.count();
+    stages += fmt::format("{}{} {:.3f}", stages.empty() ? "" : ", ", time.stage, time.seconds.count());
+  }
+  fmt::print("{}\n", path.string());
+  fmt::print("  {} vertices, {} triangles in {}, {} boundary triangles ({:.1f} %)\n", directory.vertices,
+             directory.triangles, count_of(model.regions, "region", "regions"), directory.boundary_triangles,
+             100.0 * directory.boundary_triangles / std::max(directory.triangles, 1u));
+  fmt::print("  {} bytes, {:.2f} bits a vertex on a {}-bit grid\n", pack.bytes().size(),
+             8 * bytes / std::max(directory.vertices, 1u), directory.grid.bits);
+  fmt::print("  {:.3f} s ({}), peak memory {:.0f} MiB\n", total, stages, peak_memory_mib());
+}
+
+}  // namespace
+
+Result<void> run(const BuildCommand& command) {
+  auto file = read_mesh(command.model);
+  if (!file) return forward_error(file);
+  for (const std::string& note : file->notes) fmt::print(stderr, "{}: {}\n", command.model.string(), note);
+
+  // Ctrl-C ends the work between stages; nothing has been written then.
+  std::signal(SIGINT, [](int) { g_interrupted = 1; });
+  const std::string name = command.name.empty() ? command.model.stem().string() : command.name;
+  const IngestOptions options{name, command.units, command.metadata, command.bits, command.segment};
+  ProgressLine line;
+  auto model =
+      ingest(file->soup, options, threaded_for(command.threads), [&](const std::string& stage, double done) {
+        line.show(done > 0 ? fmt::format("{} {:.0f} %", stage, 100 * done) : stage);
+        return g_interrupted == 0;
+      });
+  line.wipe();
+  if (!model) return forward_error(model, command.model.string());
+
+  const std::filesystem::path path = output_path(command);
+  const std::string_view bytes(reinterpret_cast<const char*>(model->pack.data()), model->pack.size());
+  if (auto ok = replace_file(path, bytes); !ok) return forward_error(ok, path.string());
+  print_repair(model->repair, command.model.string());
+  auto pack = Pack::open(path);
+  if (!pack) return forward_error(pack);
+  if (command.json) {
+    print_json(command, path, *model, **pack);
+  } else {
+    print_summary(path, *model, **pack);
+  }
+  return {};
+}
+
+}  // namespace selvage

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "common/base/result.h"
+#include "server/segment/segment.h"
+
+namespace selvage {
+
+/// `selvage-pack build`: a mesh file in, a pack out.
+struct BuildCommand {
+  std::filesystem::path model;
+  std::filesystem::path pack;   ///< -o; empty: the model's stem with .selvage in the current folder ...
+  std::filesystem::path store;  ///< --store; ... or in this folder
+  std::string name, units;      ///< name empty: the model's stem
+  std::map<std::string, std::string> metadata;
+  int bits = 14;
+  unsigned threads = 0;
+  bool json = false;
+  SegmentOptions segment;
+};
+
+/// Writes the pack and prints what it holds on stdout; notes about the input go to stderr.
+Result<void> run(const BuildCommand& command);
+
+}  // namespace selvage

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#include "server/encode/model_encoder.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "server/encode/bundle_encoder.h"
+#include "server/encode/region_encoder.h"
+
+namespace selvage {
+namespace {
+
+/// Vertices by region in one array (region 0: the loose ones), and each vertex's place in its region.
+struct VerticesByRegion {
+  std::vector<VertexId> vertices;
+  std::vector<std::uint32_t> begin;  ///< by region; one more at the end
+  std::vector<std::uint32_t> local_of_vertex;
+
+  std::span<const VertexId> of(RegionId region) const {
+    return std::span(vertices).subspan(begin[region], begin[region + 1] - begin[region]);
+  }
+};
+
+VerticesByRegion group_vertices(const Partition& partition) {
+  VerticesByRegion grouped;
+  grouped.begin.assign(partition.region_count + 2, 0);
+  for (RegionId region : partition.region_of_vertex) ++grouped.begin[region + 1];
+  std::partial_sum(grouped.begin.begin(), grouped.begin.end(), grouped.begin.begin());
+  std::vector<std::uint32_t> filled(partition.region_count + 1, 0);
+  grouped.vertices.resize(partition.region_of_vertex.size());
+  grouped.local_of_vertex.resize(partition.region_of_vertex.size());
+  for (VertexId v = 0; v < partition.region_of_vertex.size(); ++v) {
+    const RegionId region = partition.region_of_vertex[v];
+    grouped.local_of_vertex[v] = filled[region];
+    grouped.vertices[grouped.begin[region] + filled[region]++] = v;
+  }
+  return grouped;
+}
+
+/// The weld group of every vertex that shares its source with another, kNone for all others; groups are numbered by
+/// first vertex. Empty if there is none.
+std::vector<std::uint32_t> find_weld_groups(std::span<const VertexId> source_of_vertex) {
+  if (source_of_vertex.empty()) return {};
+  const VertexId sources = *std::max_element(source_of_vertex.begin(), source_of_vertex.end()) + 1;
+  std::vector<std::uint32_t> copies(sources, 0);
+  for (VertexId source : source_of_vertex) ++copies[source];
+  std::vector<std::uint32_t> group_of_source(sources, kNone), group_of_vertex(source_of_vertex.size(), kNone);
+  std::uint32_t groups = 0;
+  for (VertexId v = 0; v < source_of_vertex.size(); ++v) {
+    const VertexId source = source_of_vertex[v];
+    if (copies[source] < 2) continue;
+    if (group_of_source[source] == kNone) group_of_source[source] = groups++;
+    group_of_vertex[v] = group_of_source[source];
+  }
+  if (groups == 0) group_of_vertex.clear();
+  return group_of_vertex;
+}
+
+/// The triangles of each region's bundle: those whose highest region it is.
+std::vector<std::vector<TriangleId>> group_boundary_triangles(const CornerTable& table, const Partition& partition) {
+  std::vector<std::vector<TriangleId>> bundles(partition.region_count + 1);
+  for (TriangleId t : partition.boundary_triangles) {
+    const auto [a, b, c] = table.triangle(t);
+    const auto& region = partition.region_of_vertex;
+    bundles[std::max({region[a], region[b], region[c]})].push_back(t);
+  }
+  return bundles;
+}
+
+class ModelEncoder {
+ public:
+  ModelEncoder(const ModelSource& source, const Grid& grid)
+      : source_(source),
+        grid_(grid),
+        by_region_(group_vertices(source.partition)),
+        weld_group_(find_weld_groups(source.source_of_vertex)),
+        boundary_index_(source.positions.size(), kNone),
+        local_of_triangle_(source.table.triangle_count(), kNone) {
+    for (RegionId region = 1; region <= source.partition.region_count; ++region) {
+      const auto triangles = source.partition.triangles_of(region);
+      for (TriangleId i = 0; i < triangles.size(); ++i) local_of_triangle_[triangles[i]] = i;
+    }
+  }
+
+  EncodedModel run(const ParallelFor& parallel, const std::function<void()>& on_part_done) {
+    const std::uint32_t regions = source_.partition.region_count + 1;
+    EncodedModel model;
+    std::vector<RegionEntry>& entries = model.directory.regions;
+    entries.resize(regions);
+    std::vector<Bytes> region_parts(regions), bundle_parts(regions);
+    parallel(regions, [&](std::size_t i) {
+      const auto region = static_cast<RegionId>(i);
+      if (!by_region_.of(region).empty()) region_parts[i] = encode_one(region, entries[i]);
+      on_part_done();
+    });
+    // Bundles name boundary vertices by index, so they wait for all regions.
+    const auto bundles = group_boundary_triangles(source_.table, source_.partition);
+    parallel(regions, [&](std::size_t i) {
+      if (!bundles[i].empty()) bundle_parts[i] = encode_joins(static_cast<RegionId>(i), bundles[i], entries);
+      on_part_done();
+    });
+    for (RegionId region = 0; region < regions; ++region) {
+      entries[region].bundle_triangles = static_cast<std::uint32_t>(bundles[region].size());
+      if (!entries[region].levels.empty()) model.parts.push_back(std::move(region_parts[region]));
+      if (!bundles[region].empty()) model.parts.push_back(std::move(bundle_parts[region]));
+    }
+    model.directory.grid = grid_;
+    model.directory.boundary_triangles = static_cast<std::uint32_t>(source_.partition.boundary_triangles.size());
+    return model;
+  }
+
+ private:
+  RegionSource cut_out(RegionId region) const {
+    RegionSource cut;
+    const auto vertices = by_region_.of(region);
+    cut.positions.reserve(vertices.size());
+    for (VertexId v : vertices) cut.positions.push_back(grid_.quantise(source_.positions[v]));
+    if (!weld_group_.empty()) {
+      for (VertexId v : vertices) cut.weld_groups.push_back(weld_group_[v]);
+    }
+    if (region != kLooseRegion) cut_triangles(region, cut);
+    cut.table.set_corner_of_vertex(static_cast<std::uint32_t>(vertices.size()));
+    return cut;
+  }
+
+  void cut_triangles(RegionId region, RegionSource& cut) const {
+    const auto triangles = source_.partition.triangles_of(region);
+    cut.table.vertex_of_corner.reserve(3 * triangles.size());
+    cut.table.opposite.reserve(3 * triangles.size());
+    for (TriangleId t : triangles) {
+      for (CornerId c = 3 * t; c < 3 * t + 3; ++c) {
+        cut.table.vertex_of_corner.push_back(by_region_.local_of_vertex[source_.table.vertex(c)]);
+        cut.table.opposite.push_back(local_corner(region, source_.table.opposite[c]));
+      }
+      cut.is_turned.push_back(source_.is_turned[t]);
+    }
+  }
+
+  /// The region's own number for a corner across an edge; kNone where another region or nothing lies there.
+  CornerId local_corner(RegionId region, CornerId across) const {
+    if (across == kNone) return kNone;
+    const TriangleId local = local_of_triangle_[triangle_of(across)];
+    const bool is_inside = local != kNone && source_.partition.region_of_vertex[source_.table.vertex(across)] == region;
+    return is_inside ? 3 * local + across % 3 : kNone;
+  }
+
+  /// Writes only what belongs to this region, so regions may run at once.
+  Bytes encode_one(RegionId region, RegionEntry& entry) {
+    const RegionSource cut = cut_out(region);
+    EncodedRegion encoded = encode_region(cut, grid_.bits);
+    const auto vertices = by_region_.of(region);
+    for (std::uint32_t index = 0; index < encoded.loops.vertices.size(); ++index) {
+      boundary_index_[vertices[encoded.source_of_vertex[encoded.loops.vertices[index]]]] = index;
+    }
+    entry.box_min = entry.box_max = cut.positions.front();
+    for (const GridPoint& p : cut.positions) {
+      for (int axis = 0; axis < 3; ++axis) {
+        entry.box_min[axis] = std::min(entry.box_min[axis], p[axis]);
+        entry.box_max[axis] = std::max(entry.box_max[axis], p[axis]);
+      }
+    }
+    entry.loop_lengths = std::move(encoded.loops.lengths);
+    entry.levels.push_back({.vertices = cut.table.vertex_count(), .triangles = cut.table.triangle_count()});
+    return std::move(encoded.bytes);
+  }
+
+  Bytes encode_joins(RegionId region, std::span<const TriangleId> triangles, std::vector<RegionEntry>& entries) {
+    std::vector<BoundaryTriangle> named;
+    std::vector<RegionId> touched = {region};
+    for (TriangleId t : triangles) {
+      BoundaryTriangle triangle{{}, source_.is_turned[t]};
+      for (CornerId k = 0; k < 3; ++k) {
+        const VertexId v = source_.table.vertex(3 * t + k);
+        triangle.corners[k] = {source_.partition.region_of_vertex[v], boundary_index_[v]};
+        touched.push_back(triangle.corners[k].region);
+      }
+      named.push_back(triangle);
+    }
+    std::sort(touched.begin(), touched.end());
+    touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+    std::vector<BundleTopology::Region> topology;
+    for (RegionId id : touched) topology.push_back({id, entries[id].loop_lengths});
+    Bytes bytes = encode_bundle(BundleTopology(std::move(topology)), named);
+    touched.pop_back();
+    entries[region].lower_neighbours = std::move(touched);
+    return bytes;
+  }
+
+  const ModelSource& source_;
+  const Grid& grid_;
+  VerticesByRegion by_region_;
+  std::vector<std::uint32_t> weld_group_;      ///< by vertex; empty if nothing is welded
+  std::vector<std::uint32_t> boundary_index_;  ///< by vertex; kNone inside a region
+  std::vector<TriangleId> local_of_triangle_;  ///< by triangle; kNone for boundary triangles
+};
+
+}  // namespace
+
+EncodedModel encode_model(const ModelSource& source, const Grid& grid, const ParallelFor& parallel,
+                          const std::function<void()>& on_part_done) {
+  return ModelEncoder(source, grid).run(parallel, on_part_done);
+}
+
+}  // namespace selvage

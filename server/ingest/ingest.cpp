@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "server/ingest/ingest.h"
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+
+#include "common/mesh/grid.h"
+#include "common/pack/pack.h"
+#include "server/encode/model_encoder.h"
+#include "server/ingest/spatial_order.h"
+#include "server/segment/partition.h"
+
+namespace selvage {
+namespace {
+
+/// Announces stages, takes their times and remembers a wish to cancel.
+class StageClock {
+ public:
+  StageClock(const Progress& progress, std::vector<StageTime>& times) : progress_(progress), times_(times) {}
+
+  /// Runs one stage; gives what it returns.
+  template <class Stage>
+  auto run(const std::string& name, Stage stage) {
+    report(name, 0);
+    const auto begin = std::chrono::steady_clock::now();
+    auto result = stage();
+    times_.push_back({name, std::chrono::steady_clock::now() - begin});
+    return result;
+  }
+
+  void report(const std::string& name, double done) {
+    const std::scoped_lock lock(mutex_);
+    if (!is_cancelled_) is_cancelled_ = !progress_(name, done);
+  }
+
+  bool is_cancelled() const { return is_cancelled_; }
+
+ private:
+  const Progress& progress_;
+  std::vector<StageTime>& times_;
+  std::mutex mutex_;
+  std::atomic<bool> is_cancelled_ = false;
+};
+
+SourceCounts count_source(const TriangleSoup& soup, const RepairReport& report) {
+  SourceCounts counts;
+  counts.vertices = static_cast<std::uint32_t>(soup.positions.size());
+  counts.triangles = static_cast<std::uint32_t>(soup.triangles.size());
+  counts.dropped_triangles = report.dropped_triangles;
+  counts.unreferenced_vertices = report.unreferenced_vertices;
+  counts.flipped_triangles = report.turned_triangles;
+  counts.cut_vertices = report.vertex_copies;
+  return counts;
+}
+
+}  // namespace
+
+Result<IngestedModel> ingest(const TriangleSoup& soup, const IngestOptions& options, const ParallelFor& parallel,
+                             const Progress& progress) {
+  if (options.bits < kMinGridBits || options.bits > kMaxGridBits) {
+    return fail(ErrorCode::InvalidArgument, "grid bits must be " + std::to_string(kMinGridBits) + " to " +
+                                                std::to_string(kMaxGridBits) + ", not " + std::to_string(options.bits));
+  }
+  IngestedModel model;
+  StageClock clock(progress, model.times);
+  const auto cancelled = [] { return fail(ErrorCode::Cancelled, "cancelled"); };
+
+  auto repaired = clock.run("repair", [&] { return repair(soup); });
+  if (!repaired) return forward_error(repaired);
+  const RepairedMesh mesh = clock.run("order", [&] { return spatially_ordered(std::move(*repaired)); });
+  if (clock.is_cancelled()) return cancelled();
+  const Segmentation segmentation =
+      clock.run("segment", [&] { return segment(mesh.table, mesh.positions, options.segment, parallel); });
+  if (clock.is_cancelled()) return cancelled();
+  const Partition partition = clock.run(
+      "partition", [&] { return make_partition(mesh.table, segmentation.region_of_vertex, segmentation.region_count); });
+  const Grid grid = make_grid(mesh.positions, options.bits);
+  const double parts = 2.0 * (partition.region_count + 1);
+  std::atomic<std::uint32_t> done = 0;
+  EncodedModel encoded = clock.run("encode", [&] {
+    const ModelSource source{mesh.table, mesh.positions, mesh.source_of_vertex, mesh.is_turned, partition};
+    return encode_model(source, grid, parallel, [&] { clock.report("encode", ++done / parts); });
+  });
+  if (clock.is_cancelled()) return cancelled();
+
+  Directory& directory = encoded.directory;
+  directory.name = options.name;
+  directory.units = options.units;
+  directory.metadata = options.metadata;
+  directory.source = count_source(soup, mesh.report);
+  directory.vertices = directory.source.vertices - directory.source.unreferenced_vertices;
+  directory.triangles = mesh.table.triangle_count();
+  model.pack = clock.run("assemble", [&] { return assemble_pack(std::move(directory), encoded.parts); });
+  model.repair = mesh.report;
+  model.regions = partition.region_count;
+  model.loose_vertices = static_cast<std::uint32_t>(
+      std::count(partition.region_of_vertex.begin(), partition.region_of_vertex.end(), kLooseRegion));
+  return model;
+}
+
+}  // namespace selvage

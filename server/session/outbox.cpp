@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+#include "server/session/outbox.h"
+
+#include <algorithm>
+
+namespace selvage {
+
+// ---- Batch
+// ---------------------------------------------------------------------------------------------------
+
+void Batch::clear() {
+  buffer_.clear();
+  pieces_.clear();
+  kept_.clear();
+  size_bytes_ = 0;
+}
+
+/// What was appended to buffer_ from `start` on is next.
+void Batch::add_buffered(std::size_t start) {
+  const std::size_t size = buffer_.size() - start;
+  size_bytes_ += size;
+  const bool continues = !pieces_.empty() && pieces_.back().outside == nullptr;
+  if (continues) {
+    pieces_.back().size += size;
+  } else {
+    pieces_.push_back({nullptr, start, size});
+  }
+}
+
+void Batch::add_bytes(std::span<const std::byte> bytes) {
+  const std::size_t start = buffer_.size();
+  buffer_.insert(buffer_.end(), bytes.begin(), bytes.end());
+  add_buffered(start);
+}
+
+void Batch::add_data(const FrameHeader& header, std::span<const std::byte> payload) {
+  const std::size_t start = buffer_.size();
+  buffer_.resize(start + kFrameHeaderSize);
+  write_header(header, HeaderBytes(&buffer_[start], kFrameHeaderSize));
+  add_buffered(start);
+  if (payload.size() <= Outbox::kCopiedData) return add_bytes(payload);
+  pieces_.push_back({payload.data(), 0, payload.size()});
+  size_bytes_ += payload.size();
+}
+
+void Batch::keep(const std::shared_ptr<const Pack>& pack) {
+  if (kept_.empty() || kept_.back() != pack) kept_.push_back(pack);
+}
+
+const Pieces& Batch::pieces() {
+  spans_.clear();
+  for (const Piece& piece : pieces_) {
+    spans_.emplace_back(piece.outside ? piece.outside : &buffer_[piece.start], piece.size);
+  }
+  return spans_;
+}
+
+// ---- Outbox
+// --------------------------------------------------------------------------------------------------
+
+void Outbox::push_control(std::vector<std::byte> frame) {
+  control_bytes_ += frame.size();
+  control_.push_back(std::move(frame));
+}
+
+Result<void> Outbox::push_answer(Answer answer) {
+  const auto same_id = [&](const Sending& sending) { return sending.answer.request_id == answer.request_id; };
+  if (std::ranges::any_of(answers_, same_id)) {
+    return fail(ErrorCode::InvalidArgument,
+                "request id " + std::to_string(answer.request_id) + " is still being answered");
+  }
+  if (answers_.size() >= limits_.requests) {
+    return fail(ErrorCode::LimitExceeded,
+                "more than " + std::to_string(limits_.requests) + " requests in flight; wait for one to end");
+  }
+  if (answer.items.size() > limits_.queued_parts - queued_parts_) {
+    return fail(ErrorCode::LimitExceeded, "more than " + std::to_string(limits_.queued_parts) +
+                                              " parts queued; ask for fewer at a time");
+  }
+  queued_parts_ += answer.items.size();
+  Sending sending;
+  sending.sums.held = answer.held;
+  sending.answer = std::move(answer);
+  answers_.push_back(std::move(sending));
+  return {};
+}
+
+bool Outbox::cancel(std::uint32_t request_id) {
+  const auto found = std::ranges::find_if(
+      answers_, [&](const Sending& sending) { return sending.answer.request_id == request_id; });
+  if (found == answers_.end()) return false;
+  queued_parts_ -= found->answer.items.size();
+  answers_.erase(found);
+  return true;
+}
+
+Result<void> Outbox::grant(std::uint64_t bytes) {
+  if (bytes > kMaxCredit - credit_) return fail(ErrorCode::Protocol, "more credit than a window can hold");
+  credit_ += bytes;
+  return {};
+}
+
+void Outbox::take(Batch& batch) {
+  batch.clear();
+  take_control(batch);
+  while (!answers_.empty()) {
+    const std::size_t before = batch.size_bytes();
+    if (!take_from(answers_.front(), batch)) {
+      // Whoever had nothing, for want of credit, keeps the turn: a large chunk is not starved by small ones.
+      if (batch.size_bytes() > before) std::ranges::rotate(answers_, answers_.begin() + 1);
+      return;
+    }
+    queued_parts_ -= answers_.front().answer.items.size();
+    answers_.pop_front();
+  }
+}
+
+/// About half a quantum of them, so that a write stays small and data moves on whatever is queued.
+void Outbox::take_control(Batch& batch) {
+  for (; !control_.empty() && batch.size_bytes() < kQuantum / 2; control_.pop_front()) {
+    control_bytes_ -= control_.front().size();
+    batch.add_bytes(control_.front());
+  }
+}
+
+/// True when the answer is complete; false when the batch is full or credit is out.
+bool Outbox::take_from(Sending& sending, Batch& batch) {
+  batch.keep(sending.answer.pack);
+  if (sending.answer.manifest && !send_manifest(sending, batch)) return false;
+  while (sending.next < sending.answer.items.size()) {
+    if (!send_item(sending, batch)) return false;
+  }
+  batch.add(sending.sums, sending.answer.request_id, sending.seq++);
+  return true;
+}
+
+/// How much of something with `left` bytes to go may be sent now: 0, or enough to be worth a frame.
+std::uint64_t Outbox::chunk(std::uint64_t left, const Batch& batch) const {
+  const std::uint64_t room = kQuantum - std::min(kQuantum, batch.size_bytes());
+  const std::uint64_t size = std::min({left, room, credit_, std::uint64_t{kMaxDataPayload}});
+  return size < std::min<std::uint64_t>(left, kMinChunk) ? 0 : size;
+}
+
+/// Sends on from sending.at; true when all of `bytes` is out.
+bool Outbox::send_bytes(Sending& sending, std::span<const std::byte> bytes, Batch& batch) {
+  while (sending.at < bytes.size()) {
+    const std::uint64_t size = chunk(bytes.size() - sending.at, batch);
+    if (size == 0) return false;
+    const bool ends = sending.at + size == bytes.size();
+    const FrameHeader header{static_cast<std::uint32_t>(size), FrameType::Data,
+                             ends ? kFlagEnd : std::uint8_t{0}, sending.answer.request_id, sending.seq++};
+    batch.add_data(header, bytes.subspan(sending.at, size));
+    credit_ -= size;
+    sending.at += size;
+    sending.sums.bytes += size;
+  }
+  return true;
+}
+
+bool Outbox::send_manifest(Sending& sending, Batch& batch) {
+  const std::span<const std::byte> bytes = sending.answer.pack->directory_bytes();
+  if (!sending.introduced) batch.add(*sending.answer.manifest, sending.answer.request_id, sending.seq++);
+  sending.introduced = true;
+  if (!send_bytes(sending, bytes, batch)) return false;
+  sending.answer.manifest.reset();
+  sending.introduced = false;
+  return true;
+}
+
+bool Outbox::send_item(Sending& sending, Batch& batch) {
+  const SendItem& item = sending.answer.items[sending.next];
+  if (!sending.introduced) {
+    // Not before its bytes may follow: a PartBegin without data would only stand in a cancel's way.
+    if (chunk(item.ref->size - item.offset, batch) == 0) return false;
+    const PartBegin begin{item.id, item.ref->size, item.offset, item.ref->hash};
+    batch.add(begin, sending.answer.request_id, sending.seq++);
+    sending.at = item.offset;
+    sending.introduced = true;
+  }
+  if (!send_bytes(sending, sending.answer.pack->part(*item.ref), batch)) return false;
+  ++sending.sums.parts;
+  ++sending.next;
+  sending.introduced = false;
+  return true;
+}
+
+}  // namespace selvage

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+//
+// What a session has still to send, and in which order. Control frames go first and come out in the order
+// they went in; answers with data share what is left: each write carries at most one quantum, taken from the
+// answer whose turn it is, and the next write begins with the next answer. So a small request beside a large
+// one waits for a quantum, not for the end, and a cancel acts after one.
+//
+// Data goes out only against credit. A Batch points into the mapped pack, part bytes are not copied on the
+// way, but for parts so small that a place of their own in the gather list costs more than the copy.
+//
+// Single-strand. No I/O: the session writes what take() gives.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "common/net/byte_stream.h"
+#include "common/net/messages.h"
+#include "common/pack/pack.h"
+#include "server/session/limits.h"
+
+namespace selvage {
+
+/// One part of an answer; `ref` points into the answer's pack.
+struct SendItem {
+  PartId id;
+  std::uint32_t offset = 0;  ///< the client has the bytes before it
+  const PartRef* ref = nullptr;
+};
+
+/// An answer that carries bytes of a pack: its directory, if `manifest` is set, then parts, then RequestEnd.
+struct Answer {
+  std::uint32_t request_id = 0;
+  std::shared_ptr<const Pack> pack;
+  std::optional<ManifestBegin> manifest;
+  std::vector<SendItem> items;
+  std::uint32_t held = 0;  ///< parts that the client said it has
+};
+
+/// Frames for one write: small ones gathered in a buffer, part bytes where they lie in their packs.
+class Batch {
+ public:
+  void clear();
+  bool empty() const { return pieces_.empty(); }
+  std::size_t size_bytes() const { return size_bytes_; }
+
+  /// What to write; valid until the batch changes.
+  const Pieces& pieces();
+
+  template <class Message>
+  void add(const Message& message, std::uint32_t request_id, std::uint32_t seq) {
+    const std::size_t start = buffer_.size();
+    append_frame(buffer_, message, request_id, seq);
+    add_buffered(start);
+  }
+  void add_bytes(std::span<const std::byte> bytes);  ///< of whole frames
+  void add_data(const FrameHeader& header, std::span<const std::byte> payload);
+  void keep(const std::shared_ptr<const Pack>& pack);
+
+ private:
+  /// A run of `buffer_`, or bytes elsewhere. `buffer_` moves as it grows, so runs are places, not pointers.
+  struct Piece {
+    const std::byte* outside = nullptr;
+    std::size_t start = 0, size = 0;
+  };
+  void add_buffered(std::size_t start);
+
+  std::vector<std::byte> buffer_;
+  std::vector<Piece> pieces_;
+  Pieces spans_;
+  std::vector<std::shared_ptr<const Pack>> kept_;
+  std::size_t size_bytes_ = 0;
+};
+
+class Outbox {
+ public:
+  /// One write, and so what a cancel may still let through besides what the kernel holds.
+  static constexpr std::size_t kQuantum = 64u << 10;
+  /// A part is not cut finer than this, unless it ends.
+  static constexpr std::size_t kMinChunk = 16u << 10;
+  /// Data up to this size is copied beside its header.
+  static constexpr std::size_t kCopiedData = 512;
+
+  explicit Outbox(const SessionLimits& limits) : limits_(limits) {}
+
+  /// A whole frame (see to_frame). Always accepted: the reader stops reading while full().
+  void push_control(std::vector<std::byte> frame);
+  bool full() const { return control_bytes_ >= limits_.queued_bytes; }
+
+  /// LimitExceeded when too many requests or parts are queued, InvalidArgument when the request id is in use.
+  Result<void> push_answer(Answer answer);
+
+  /// Drops what is left of that answer; false if there is none (any more).
+  bool cancel(std::uint32_t request_id);
+  void drop_answers() {
+    answers_.clear();
+    queued_parts_ = 0;
+  }
+
+  /// Protocol if the client grants more than can be.
+  Result<void> grant(std::uint64_t bytes);
+
+  /// Nothing more to send, now or when credit comes.
+  bool idle() const { return control_.empty() && answers_.empty(); }
+
+  /// Fills `batch`, which it clears first, with the next write; leaves it empty when there is nothing that
+  /// may be sent now.
+  void take(Batch& batch);
+
+ private:
+  /// An answer under way.
+  struct Sending {
+    Answer answer;
+    std::size_t next = 0;     ///< item being sent
+    std::uint64_t at = 0;     ///< byte of it (of the directory first, where there is a manifest)
+    bool introduced = false;  ///< its ManifestBegin or PartBegin went out
+    std::uint32_t seq = 0;
+    RequestEnd sums;
+  };
+
+  void take_control(Batch& batch);
+  bool take_from(Sending& sending, Batch& batch);
+  std::uint64_t chunk(std::uint64_t left, const Batch& batch) const;
+  bool send_bytes(Sending& sending, std::span<const std::byte> bytes, Batch& batch);
+  bool send_manifest(Sending& sending, Batch& batch);
+  bool send_item(Sending& sending, Batch& batch);
+
+  const SessionLimits limits_;
+  std::deque<std::vector<std::byte>> control_;
+  std::size_t control_bytes_ = 0;
+  std::deque<Sending> answers_;  ///< the front one's turn is next
+  std::size_t queued_parts_ = 0;
+  std::uint64_t credit_ = 0;
+};
+
+}  // namespace selvage

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include "server/session/request_handler.h"
+
+#include <algorithm>
+
+#include "common/pack/selection.h"
+
+namespace selvage {
+namespace {
+
+/// With names and reasons at their longest this stays far below a frame's 1 MiB.
+constexpr std::size_t kModelsPerPage = 500;
+
+ModelInfo describe(const PackStore::Model& model) {
+  ModelInfo info;
+  info.name = model.name;
+  info.size_bytes = model.size_bytes;
+  if (!model.pack) {
+    info.problem = model.pack.error().to_string();
+    return info;
+  }
+  const Pack& pack = **model.pack;
+  info.pack_id = pack.id();
+  info.regions = pack.directory().real_region_count();
+  info.vertices = pack.directory().vertices;
+  info.triangles = pack.directory().triangles;
+  return info;
+}
+
+/// What the client holds of a part: nothing, its first bytes, or all.
+class Held {
+ public:
+  explicit Held(const GetParts& request) : whole_(request.have), partial_(request.partial) {
+    std::ranges::sort(whole_);
+    std::ranges::sort(partial_, {}, &PartialPart::hash);
+  }
+
+  bool whole(const Hash& hash) const { return std::ranges::binary_search(whole_, hash); }
+
+  /// An offset past the part's end is no help: it is then sent from the start.
+  std::uint32_t bytes_of(const PartRef& ref) const {
+    const auto found = std::ranges::lower_bound(partial_, ref.hash, {}, &PartialPart::hash);
+    const bool helps = found != partial_.end() && found->hash == ref.hash && found->offset < ref.size;
+    return helps ? found->offset : 0;
+  }
+
+ private:
+  std::vector<Hash> whole_;
+  std::vector<PartialPart> partial_;
+};
+
+}  // namespace
+
+Models answer_list(const ListModels& request, const std::vector<PackStore::Model>& models) {
+  Models page;
+  auto next = std::ranges::upper_bound(models, request.after, {}, &PackStore::Model::name);
+  for (; next != models.end() && page.models.size() < kModelsPerPage; ++next) {
+    page.models.push_back(describe(*next));
+  }
+  page.more = next != models.end();
+  return page;
+}
+
+Answer answer_open(std::uint32_t request_id, std::shared_ptr<const Pack> pack) {
+  Answer answer;
+  answer.request_id = request_id;
+  answer.manifest = ManifestBegin{pack->id(), pack->header().summary_size, pack->directory_bytes().size()};
+  answer.pack = std::move(pack);
+  return answer;
+}
+
+Result<Answer> answer_get(std::uint32_t request_id, const GetParts& request, std::shared_ptr<const Pack> pack,
+                          const SessionLimits& limits) {
+  if (request.pack_id && *request.pack_id != pack->id()) {
+    return fail(ErrorCode::ModelChanged, "'" + request.model + "' is another pack now; open it again");
+  }
+  if (request.selection.ids.size() > limits.ids_per_request) {
+    return fail(ErrorCode::LimitExceeded,
+                "more than " + std::to_string(limits.ids_per_request) + " region ids in one request");
+  }
+  auto parts = select_parts(pack->directory(), request.selection);
+  if (!parts) return forward_error(parts);
+
+  Answer answer;
+  answer.request_id = request_id;
+  answer.items.reserve(parts->size());
+  const Held held(request);
+  for (const PartId& id : *parts) {
+    const PartRef& ref = *pack->directory().find(id);
+    if (held.whole(ref.hash)) {
+      ++answer.held;
+    } else {
+      answer.items.push_back({id, held.bytes_of(ref), &ref});
+    }
+  }
+  answer.pack = std::move(pack);
+  return answer;
+}
+
+}  // namespace selvage

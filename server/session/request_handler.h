@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+//
+// What a request means: from a message and a model to the answer, by looking up directories and nothing else.
+// Pure; the session fetches the pack before and sends the answer after.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "common/net/messages.h"
+#include "server/session/limits.h"
+#include "server/session/outbox.h"
+#include "server/store/pack_store.h"
+
+namespace selvage {
+
+/// One page of the models after `request.after`; small enough for a frame.
+Models answer_list(const ListModels& request, const std::vector<PackStore::Model>& models);
+
+/// The model's directory.
+Answer answer_open(std::uint32_t request_id, std::shared_ptr<const Pack> pack);
+
+/// The parts that a selection means, without those that the client has, in the order of select_parts.
+/// ModelChanged if the request names another pack; NotFound names a region that is not there; LimitExceeded.
+Result<Answer> answer_get(std::uint32_t request_id, const GetParts& request, std::shared_ptr<const Pack> pack,
+                          const SessionLimits& limits);
+
+}  // namespace selvage

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+//
+// One client's connection on the server, from its Hello to its end. Two coroutines on one strand: the reader
+// takes requests and queues what answers them, the writer alone writes. They meet in the outbox.
+//
+// Bad framing, an impossible message or credit, and a broken order of messages end the connection; any other
+// failure ends its request alone. What a client can cost is bounded by SessionLimits.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "common/net/byte_stream.h"
+#include "common/net/deadline.h"
+#include "common/net/frame.h"
+#include "common/net/messages.h"
+#include "common/net/signal.h"
+#include "server/session/limits.h"
+#include "server/session/outbox.h"
+#include "server/store/pack_store.h"
+
+namespace selvage {
+
+/// Single-strand (the stream's), workers aside. `store` and `workers` outlive it.
+class Session {
+ public:
+  /// The store is asked on `workers`, so that a disk never holds up the strand.
+  Session(std::unique_ptr<ByteStream> stream, PackStore& store, asio::any_io_executor workers,
+          const SessionLimits& limits);
+
+  /// The whole life of the connection. Returns when it is closed; the session may then go.
+  asio::awaitable<void> run();
+
+  /// Says GoAway, lets requests in flight finish and refuses new ones, then ends.
+  void shut_down();
+  /// Ends at once.
+  void abort() { stream_->close(); }
+
+  const std::string& peer() const { return peer_; }
+  /// Why it ended, once run() has returned; nothing if the client left in good order.
+  const std::optional<Error>& reason() const { return reason_; }
+
+ private:
+  asio::awaitable<void> read_until_end();
+  asio::awaitable<void> read_loop();
+  asio::awaitable<void> write_loop();
+
+  Result<void> greet(const Frame& frame);
+  asio::awaitable<Result<void>> handle(Frame frame);
+  asio::awaitable<Result<void>> list(std::uint32_t request_id, ListModels request);
+  asio::awaitable<Result<void>> open(std::uint32_t request_id, OpenModel request);
+  asio::awaitable<Result<void>> get(std::uint32_t request_id, GetParts request);
+  asio::awaitable<Result<std::shared_ptr<const Pack>>> open_pack(std::string name);
+  std::shared_ptr<const Pack> opened_pack(const std::string& name) const;
+
+  template <class Message>
+  void send(const Message& message, std::uint32_t request_id);
+  void send_error(const Error& error, std::uint32_t request_id);
+  void send_answer(Answer answer);
+
+  struct OpenedModel {
+    std::string name;
+    std::shared_ptr<const Pack> pack;
+  };
+
+  std::unique_ptr<ByteStream> stream_;
+  PackStore& store_;
+  asio::any_io_executor workers_;
+  const SessionLimits limits_;
+  const std::string peer_;
+
+  FrameBuffer incoming_;
+  Outbox outbox_;
+  Signal wake_writer_;  ///< something to send, or to stop for
+  Signal wake_reader_;  ///< the outbox has room again
+  Deadline reading_;    ///< for the next whole frame
+  Deadline writing_;    ///< for the write under way
+
+  std::deque<OpenedModel>
+      opened_;  ///< a get finds the pack that this client opened, whatever the store has since
+  bool greeted_ = false;
+  bool draining_ = false;  ///< no new requests; the writer ends when all is sent
+  bool closing_ = false;   ///< the writer sends what control frames are left, and ends
+  std::optional<Error> reason_;
+};
+
+}  // namespace selvage

@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: MIT
+#include "common/mesh_io/stl.h"
+#include "tests/fuzz/fuzz_mesh_reader.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  return selvage::fuzz_mesh_reader(selvage::parse_stl, data, size);
+}

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include "tests/support/labelled_pack.h"
+
+#include <cmath>
+
+#include "common/pack/pack.h"
+#include "server/encode/model_encoder.h"
+#include "server/ingest/repair.h"
+#include "server/segment/partition.h"
+#include "server/segment/regularise.h"
+
+namespace selvage {
+
+Bytes labelled_pack(const TriangleSoup& soup, std::span<const std::uint32_t> label_of_vertex, int bits) {
+  const RepairedMesh mesh = repair(soup).value();
+  std::vector<std::uint32_t> labels;
+  for (VertexId source : mesh.source_of_vertex) labels.push_back(label_of_vertex[source]);
+  const Segmentation segmentation = regularise(mesh.table, labels, {}, mesh.positions);
+  const Partition partition =
+      make_partition(mesh.table, segmentation.region_of_vertex, segmentation.region_count);
+  const ModelSource source{mesh.table, mesh.positions, mesh.source_of_vertex, mesh.is_turned, partition};
+  EncodedModel model = encode_model(source, make_grid(mesh.positions, bits), serial_for(), [] {});
+  model.directory.name = "labelled";
+  model.directory.vertices =
+      static_cast<std::uint32_t>(soup.positions.size()) - mesh.report.unreferenced_vertices;
+  model.directory.triangles = mesh.table.triangle_count();
+  return assemble_pack(std::move(model.directory), model.parts);
+}
+
+std::vector<std::uint32_t> cube_labels(const TriangleSoup& soup, double cell) {
+  std::vector<std::uint32_t> labels;
+  const auto place = [&](double at) {
+    return static_cast<std::uint32_t>(std::floor(at / cell) + 512) & 1023;
+  };
+  for (const Vec3& p : soup.positions) labels.push_back(place(p.x) << 20 | place(p.y) << 10 | place(p.z));
+  return labels;
+}
+
+}  // namespace selvage

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "tests/support/memory_stream.h"
+
+#include <algorithm>
+#include <deque>
+
+#include "common/net/signal.h"
+
+namespace selvage::testing {
+namespace {
+
+/// One direction.
+struct Pipe {
+  Pipe(asio::any_io_executor executor, std::size_t most) : capacity(most), readable(executor), writable(executor) {}
+
+  void close() {
+    closed = true;
+    readable.notify();
+    writable.notify();
+  }
+
+  const std::size_t capacity;
+  std::deque<std::byte> bytes;
+  bool closed = false;
+  Signal readable, writable;
+};
+
+class MemoryStream final : public ByteStream {
+ public:
+  MemoryStream(asio::any_io_executor executor, std::shared_ptr<Pipe> in, std::shared_ptr<Pipe> out,
+               std::shared_ptr<FaultPlan> fault, std::size_t read_limit)
+      : executor_(executor), in_(std::move(in)), out_(std::move(out)), fault_(std::move(fault)),
+        read_limit_(read_limit) {}
+  ~MemoryStream() override { close(); }
+
+  asio::awaitable<Result<std::size_t>> read_some(std::span<std::byte> into) override {
+    if (fails()) co_return fail(ErrorCode::Io, "this read fails");
+    while (in_->bytes.empty() && !in_->closed) co_await in_->readable.wait();
+    if (closed_) co_return fail(ErrorCode::Cancelled, "the connection was closed");
+    const std::size_t count = std::min({into.size(), in_->bytes.size(), read_limit_});
+    const auto end = in_->bytes.begin() + static_cast<std::ptrdiff_t>(count);
+    std::copy(in_->bytes.begin(), end, into.begin());
+    in_->bytes.erase(in_->bytes.begin(), end);
+    in_->writable.notify();
+    co_return count;
+  }
+
+  asio::awaitable<Result<void>> write(const Pieces& pieces) override {
+    if (fails()) co_return fail(ErrorCode::Io, "this write fails");
+    for (std::span<const std::byte> piece : pieces) {
+      while (!piece.empty()) {
+        while (out_->bytes.size() >= out_->capacity && !out_->closed) co_await out_->writable.wait();
+        if (out_->closed) co_return fail(ErrorCode::Io, "the other side has gone");
+        const std::size_t count = std::min(piece.size(), out_->capacity - out_->bytes.size());
+        out_->bytes.insert(out_->bytes.end(), piece.begin(), piece.begin() + static_cast<std::ptrdiff_t>(count));
+        out_->readable.notify();
+        piece = piece.subspan(count);
+      }
+    }
+    co_return Result<void>();
+  }
+
+  void close() override {
+    closed_ = true;
+    in_->close();
+    out_->close();
+  }
+
+  asio::any_io_executor executor() override { return executor_; }
+  std::string peer() const override { return "memory"; }
+
+ private:
+  bool fails() {
+    if (fault_->operations++ != fault_->fails_at) return closed_;
+    close();
+    return true;
+  }
+
+  asio::any_io_executor executor_;
+  std::shared_ptr<Pipe> in_, out_;
+  std::shared_ptr<FaultPlan> fault_;
+  std::size_t read_limit_;
+  bool closed_ = false;
+};
+
+}  // namespace
+
+StreamPair make_memory_streams(asio::any_io_executor executor, MemoryStreamOptions options) {
+  const auto there = std::make_shared<Pipe>(executor, options.capacity);
+  const auto back = std::make_shared<Pipe>(executor, options.capacity);
+  return {std::make_unique<MemoryStream>(executor, back, there, options.first_fault, options.read_limit),
+          std::make_unique<MemoryStream>(executor, there, back, options.second_fault, options.read_limit)};
+}
+
+}  // namespace selvage::testing
