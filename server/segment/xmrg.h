@@ -2,7 +2,7 @@
 //
 // XMR-G: the dissertation's idea (extended neighbourhood, hyperbolic or concave vertices as borders,
 // watershed, region merging) with a radius instead of a ring count, one height instead of two thresholds, and
-// a hierarchy instead of a vertex count. docs/DECISIONS.md has the measurements behind it.
+// a hierarchy instead of a vertex count. The measurements behind it are in docs/DECISIONS.md.
 #pragma once
 
 #include <cstdint>
