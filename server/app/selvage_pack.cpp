@@ -16,24 +16,41 @@ using selvage::BuildCommand;
 using selvage::InspectCommand;
 
 void add_segmentation_options(CLI::App& build, selvage::SegmentOptions& segment) {
-  const std::map<std::string, selvage::SegmentMode> modes = {{"classic", selvage::SegmentMode::Classic},
-                                                             {"zhang", selvage::SegmentMode::Zhang}};
+  using selvage::SegmentMode;
+  const std::map<std::string, SegmentMode> modes = {{"xmrg", SegmentMode::Xmrg},
+                                                    {"classic", SegmentMode::Classic},
+                                                    {"zhang", SegmentMode::Zhang},
+                                                    {"mw99", SegmentMode::ManganWhitaker},
+                                                    {"cad", SegmentMode::Cad}};
   const char* group = "Segmentation";
   build
-      .add_option("--mode", segment.mode,
-                  "how parts are found: classic (curvature and concaveness), zhang (curvature alone)")
+      .add_option(
+          "--mode", segment.mode,
+          "how parts are found: xmrg (bending over a radius, watershed, hierarchy), cad (also at sharp "
+          "edges), classic (curvature and concaveness), zhang (curvature alone), mw99 (merging by depth)")
       ->transform(CLI::CheckedTransformer(modes, CLI::ignore_case))
-      ->default_str("classic")
+      ->default_str("xmrg")
       ->group(group);
   build
+      .add_option("--regions", segment.target_regions,
+                  "xmrg, cad, mw99: merge until so many are left; 0: as many as the shape has")
+      ->capture_default_str()
+      ->group(group);
+  build
+      .add_option("--max-region", segment.max_region_vertices,
+                  "xmrg, cad: cut regions with more vertices; 0: none")
+      ->capture_default_str()
+      ->group(group);
+  build.add_flag("--smooth", segment.smooth, "xmrg, cad: smooth the borders between regions")->group(group);
+  build
       .add_option("--xmr", segment.xmr_rings,
-                  "classic: rings of the neighbourhood that curvature is taken on")
+                  "classic, zhang, mw99: rings of the neighbourhood that curvature is taken on")
       ->check(CLI::Range(1, 5))
       ->capture_default_str()
       ->group(group);
   build
       .add_option("--min-region", segment.min_region_vertices,
-                  "merge regions with fewer vertices; 0: 1 % of the model")
+                  "merge regions with fewer vertices; 0: 1 % of the model, in xmrg and cad 0.5 % of the area")
       ->capture_default_str()
       ->group(group);
   build

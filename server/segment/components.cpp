@@ -1,30 +1,49 @@
 // SPDX-License-Identifier: MIT
 #include "server/segment/components.h"
 
-#include "server/segment/one_ring.h"
+#include <algorithm>
+#include <numeric>
 
 namespace selvage {
 
+namespace {
+
+/// Union-find over vertices; the root of a set is its lowest vertex.
+class VertexSets {
+ public:
+  explicit VertexSets(std::uint32_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
+
+  VertexId root(VertexId v) {
+    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
+    return v;
+  }
+  void join(VertexId a, VertexId b) {
+    a = root(a), b = root(b);
+    if (a != b) parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<VertexId> parent_;
+};
+
+}  // namespace
+
 Components find_components(const CornerTable& mesh) {
-  Components components{std::vector<std::uint32_t>(mesh.vertex_count(), kNone), {}};
-  std::vector<VertexId> pending;
-  for (VertexId seed = 0; seed < mesh.vertex_count(); ++seed) {
-    if (components.of_vertex[seed] != kNone) continue;
-    const std::uint32_t id = components.count();
-    std::uint32_t size = 0;
-    components.of_vertex[seed] = id;
-    pending.push_back(seed);
-    while (!pending.empty()) {
-      const VertexId v = pending.back();
-      pending.pop_back();
-      ++size;
-      for_each_neighbour(mesh, v, [&](VertexId u) {
-        if (components.of_vertex[u] != kNone) return;
-        components.of_vertex[u] = id;
-        pending.push_back(u);
-      });
+  VertexSets sets(mesh.vertex_count());
+  for (TriangleId t = 0; t < mesh.triangle_count(); ++t) {
+    const auto [a, b, c] = mesh.triangle(t);
+    sets.join(a, b);
+    sets.join(a, c);
+  }
+  Components components{std::vector<std::uint32_t>(mesh.vertex_count()), {}};
+  for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
+    const VertexId root = sets.root(v);  // not above v, so numbered before it
+    if (root == v) {
+      components.of_vertex[v] = components.count();
+      components.vertex_count.push_back(0);
     }
-    components.vertex_count.push_back(size);
+    components.of_vertex[v] = components.of_vertex[root];
+    ++components.vertex_count[components.of_vertex[v]];
   }
   return components;
 }

@@ -19,7 +19,7 @@ struct Components {
   std::uint32_t count() const { return static_cast<std::uint32_t>(vertex_count.size()); }
 };
 
-/// Linear time. A vertex without triangles is a component of its own.
+/// Practically linear time. A vertex without triangles is a component of its own.
 Components find_components(const CornerTable& mesh);
 
 struct ComponentShape {

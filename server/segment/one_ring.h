@@ -49,12 +49,4 @@ void for_each_neighbour(const CornerTable& mesh, VertexId v, Visit&& visit) {
   }
 }
 
-/// Calls visit(tail, head) once for every edge of the mesh.
-template <class Visit>
-void for_each_edge(const CornerTable& mesh, Visit&& visit) {
-  for (CornerId c = 0; c < mesh.corner_count(); ++c) {
-    if (mesh.opposite[c] == kNone || c < mesh.opposite[c]) visit(mesh.vertex(next(c)), mesh.vertex(prev(c)));
-  }
-}
-
 }  // namespace selvage

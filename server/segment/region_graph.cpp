@@ -5,22 +5,22 @@
 #include <numeric>
 #include <utility>
 
-#include "server/segment/one_ring.h"
-
 namespace selvage {
 
 RegionGraph::RegionGraph(const CornerTable& mesh, std::span<const std::uint32_t> label_of_vertex,
-                         std::uint32_t region_count)
+                         std::uint32_t region_count, const MeasureEdge& measure)
     : parent_(region_count), neighbours_(region_count), vertex_count_(region_count, 0) {
   std::iota(parent_.begin(), parent_.end(), 0u);
   for (std::uint32_t label : label_of_vertex) ++vertex_count_[label];
-  for_each_edge(mesh, [&](VertexId tail, VertexId head) {
-    const std::uint32_t a = label_of_vertex[tail], b = label_of_vertex[head];
-    if (a == b) return;
-    const RegionBorder edge{.edges = 1};
+  for (CornerId c = 0; c < mesh.corner_count(); ++c) {
+    if (mesh.opposite[c] != kNone && mesh.opposite[c] < c) continue;  // once an edge
+    const std::uint32_t a = label_of_vertex[mesh.vertex(next(c))], b = label_of_vertex[mesh.vertex(prev(c))];
+    if (a == b) continue;
+    RegionBorder edge = measure ? measure(c) : RegionBorder{};
+    edge.edges = 1;
     neighbours_[a][b] += edge;
     neighbours_[b][a] += edge;
-  });
+  }
 }
 
 std::uint32_t RegionGraph::find(std::uint32_t node) const {

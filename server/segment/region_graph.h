@@ -5,7 +5,10 @@
 // only.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <functional>
+#include <limits>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -14,15 +17,24 @@
 
 namespace selvage {
 
-/// What two neighbouring regions share.
+/// What two neighbouring regions share. All but `edges` are sums or minima of what the caller measures.
 struct RegionBorder {
   std::uint32_t edges = 0;  ///< mesh edges with one end in each: the dissertation's boundary length
+  double length = 0;        ///< model units
+  double concavity = 0;     ///< integrated along the border: dimensionless times model units
+  double pass = std::numeric_limits<double>::infinity();  ///< height of the lowest edge across
 
   RegionBorder& operator+=(const RegionBorder& other) {
     edges += other.edges;
+    length += other.length;
+    concavity += other.concavity;
+    pass = std::min(pass, other.pass);
     return *this;
   }
 };
+
+/// What one edge adds to the border of the regions at its ends; `c` is a corner that faces it.
+using MeasureEdge = std::function<RegionBorder(CornerId c)>;
 
 /// Nodes are 0..size-1, at first one a label. Merging keeps one of the two nodes; find() tells which node a
 /// label has become part of. All merges of B regions together take O(E log B), E being the number of borders.
@@ -30,9 +42,10 @@ class RegionGraph {
  public:
   using Neighbours = std::unordered_map<std::uint32_t, RegionBorder>;
 
-  /// Regions are the vertices of equal label; labels are 0..region_count-1.
+  /// Regions are the vertices of equal label; labels are 0..region_count-1. Without `measure` only edges
+  /// count.
   RegionGraph(const CornerTable& mesh, std::span<const std::uint32_t> label_of_vertex,
-              std::uint32_t region_count);
+              std::uint32_t region_count, const MeasureEdge& measure = {});
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(neighbours_.size()); }
   /// The surviving node that holds `node`.

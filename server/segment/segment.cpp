@@ -3,50 +3,78 @@
 
 #include <algorithm>
 
-#include "server/segment/components.h"
-#include "server/segment/erosion.h"
 #include "server/segment/merge_by_size.h"
-#include "server/segment/minima.h"
-#include "server/segment/prune_branches.h"
 
 namespace selvage {
 namespace {
 
-/// The dissertation's pipeline, Fig. 4.1. Labels, not yet codable.
-std::vector<std::uint32_t> classic_labels(const CornerTable& mesh, std::span<const Vec3> positions,
-                                          const SegmentOptions& options, std::uint32_t min_region_vertices,
-                                          const ParallelFor& parallel) {
-  const Components components = find_components(mesh);
-  const auto shapes = measure_components(mesh, positions, components);
-  const int rings = std::clamp(options.xmr_rings, 1, 5);
-  const Features features = extract_features(mesh, positions, components, shapes, rings, parallel);
-
-  PlateauThresholds thresholds = options.thresholds;
-  if (options.mode == SegmentMode::Zhang) thresholds.use_distance = false;
-  Minima minima = label_minima(mesh, find_plateau(features, thresholds));
-  erode_plateau(mesh, minima);
-  merge_by_size(mesh, minima.label_of_vertex, minima.count, min_region_vertices);
-  if (options.prune_branches) prune_branches(mesh, minima.label_of_vertex);
-  return std::move(minima.label_of_vertex);
+ClassicOptions classic_options(const SegmentOptions& options) {
+  ClassicOptions classic{options.xmr_rings, options.thresholds, options.prune_branches};
+  if (options.mode == SegmentMode::Zhang) classic.thresholds.use_distance = false;
+  return classic;
 }
 
-RegulariseOptions with_default_dust(RegulariseOptions options, std::uint32_t min_region_vertices) {
+std::uint32_t merge_threshold(const SegmentOptions& options, std::uint32_t vertex_count) {
+  return options.min_region_vertices > 0 ? options.min_region_vertices
+                                         : default_merge_threshold(vertex_count);
+}
+
+RegulariseOptions regularise_options(const SegmentOptions& options, std::uint32_t vertex_count) {
   constexpr std::uint32_t kMaxDustVertices = 256;
-  if (options.min_component_vertices == 0) {
-    options.min_component_vertices = std::min(min_region_vertices, kMaxDustVertices);
+  RegulariseOptions regularise = options.regularise;
+  if (regularise.min_component_vertices == 0) {
+    regularise.min_component_vertices = std::min(merge_threshold(options, vertex_count), kMaxDustVertices);
   }
-  return options;
+  return regularise;
+}
+
+std::vector<std::uint32_t> label_vertices(const CornerTable& mesh, std::span<const Vec3> positions,
+                                          const SegmentOptions& options, const ParallelFor& parallel) {
+  const std::uint32_t threshold = merge_threshold(options, mesh.vertex_count());
+  switch (options.mode) {
+    case SegmentMode::Classic:
+    case SegmentMode::Zhang:
+      return classic_labels(mesh, positions, classic_options(options), threshold, parallel);
+    case SegmentMode::ManganWhitaker:
+      return mangan_whitaker_labels(mesh, positions, classic_options(options), threshold,
+                                    options.target_regions, parallel);
+    case SegmentMode::Xmrg:
+    case SegmentMode::Cad:
+      break;
+  }
+  const XmrgOptions xmrg = xmrg_options(options);
+  return xmrg_labels(mesh, grow_xmrg_hierarchy(mesh, positions, xmrg, parallel), xmrg);
 }
 
 }  // namespace
 
+SegmentOptions with_streaming_sizes(SegmentOptions options, std::uint32_t triangle_count) {
+  constexpr std::uint32_t kSmallModel = 20000, kMinVertices = 256, kMaxVertices = 4096;
+  if (triangle_count <= kSmallModel) return options;
+  if (options.min_region_vertices == 0) options.min_region_vertices = kMinVertices;
+  if (options.max_region_vertices == 0) options.max_region_vertices = kMaxVertices;
+  return options;
+}
+
+XmrgOptions xmrg_options(const SegmentOptions& options) {
+  XmrgOptions xmrg{options.height,        options.basins,         options.hierarchy,
+                   options.stop_saliency, options.target_regions, options.smooth};
+  if (options.mode == SegmentMode::Cad) {
+    // A cylinder bends all over, with height -0.5 radius / R; a ridge of 17 degrees is as high as one of R
+    // = 3.3 radii.
+    constexpr double kRidgeDepth = 0.15;
+    xmrg.height.cut_at_ridges = true;
+    xmrg.basins.plateau_depth = std::max(xmrg.basins.plateau_depth, kRidgeDepth);
+  }
+  xmrg.hierarchy.min_region_vertices = options.min_region_vertices;
+  xmrg.hierarchy.max_region_vertices = options.max_region_vertices;
+  return xmrg;
+}
+
 Segmentation segment(const CornerTable& mesh, std::span<const Vec3> positions, const SegmentOptions& options,
                      const ParallelFor& parallel) {
-  const std::uint32_t min_region_vertices = options.min_region_vertices > 0
-                                                ? options.min_region_vertices
-                                                : default_merge_threshold(mesh.vertex_count());
-  const auto labels = classic_labels(mesh, positions, options, min_region_vertices, parallel);
-  return regularise(mesh, labels, with_default_dust(options.regularise, min_region_vertices), positions);
+  const std::vector<std::uint32_t> labels = label_vertices(mesh, positions, options, parallel);
+  return regularise(mesh, labels, regularise_options(options, mesh.vertex_count()), positions);
 }
 
 }  // namespace selvage

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "server/segment/smooth_labels.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "server/segment/one_ring.h"
+
+namespace selvage {
+namespace {
+
+constexpr int kRounds = 2, kBandEdges = 3, kSteps = 3, kMaxShares = 4;
+
+struct Share {
+  std::uint32_t label = kNone;
+  float amount = 0;
+};
+/// Greatest first, unused ones last with label kNone.
+using Shares = std::array<Share, kMaxShares>;
+
+/// Vertices within kBandEdges edges of a border, breadth first from it.
+std::vector<VertexId> find_band(const CornerTable& mesh, const std::vector<std::uint32_t>& label_of_vertex,
+                                std::vector<std::uint32_t>& place_in_band) {
+  std::vector<VertexId> band;
+  for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
+    bool is_at_border = false;
+    for_each_neighbour(mesh, v,
+                       [&](VertexId u) { is_at_border |= label_of_vertex[u] != label_of_vertex[v]; });
+    if (!is_at_border) continue;
+    place_in_band[v] = static_cast<std::uint32_t>(band.size());
+    band.push_back(v);
+  }
+  std::size_t at = 0;
+  for (int step = 1; step < kBandEdges; ++step) {
+    for (const std::size_t end = band.size(); at < end; ++at) {
+      for_each_neighbour(mesh, band[at], [&](VertexId u) {
+        if (place_in_band[u] != kNone) return;
+        place_in_band[u] = static_cast<std::uint32_t>(band.size());
+        band.push_back(u);
+      });
+    }
+  }
+  return band;
+}
+
+/// A sum of shares, of any number of labels.
+class ShareSum {
+ public:
+  void clear() { sum_.clear(); }
+  void add(const Shares& shares, float weight) {
+    for (const Share& share : shares) {
+      if (share.label != kNone) add(share.label, share.amount * weight);
+    }
+  }
+  /// The greatest ones, scaled to sum to 1.
+  Shares greatest() {
+    std::sort(sum_.begin(), sum_.end(), [](const Share& a, const Share& b) {
+      return a.amount != b.amount ? a.amount > b.amount : a.label < b.label;
+    });
+    Shares shares;
+    float total = 0;
+    for (std::size_t i = 0; i < std::min<std::size_t>(kMaxShares, sum_.size()); ++i) total += sum_[i].amount;
+    for (std::size_t i = 0; i < std::min<std::size_t>(kMaxShares, sum_.size()); ++i) {
+      shares[i] = {sum_[i].label, sum_[i].amount / total};
+    }
+    return shares;
+  }
+
+ private:
+  void add(std::uint32_t label, float amount) {
+    for (Share& share : sum_) {
+      if (share.label == label) {
+        share.amount += amount;
+        return;
+      }
+    }
+    if (sum_.size() < kMaxLabels) sum_.push_back({label, amount});
+  }
+  // Beside a vertex of enormous valence only the first few labels are heard.
+  static constexpr std::size_t kMaxLabels = 32;
+  std::vector<Share> sum_;
+};
+
+void smooth_once(const CornerTable& mesh, std::span<const float> kappa,
+                 std::vector<std::uint32_t>& label_of_vertex) {
+  std::vector<std::uint32_t> place_in_band(mesh.vertex_count(), kNone);
+  const std::vector<VertexId> band = find_band(mesh, label_of_vertex, place_in_band);
+  std::vector<Shares> shares(band.size()), smoothed(band.size());
+  for (std::size_t i = 0; i < band.size(); ++i) shares[i][0] = {label_of_vertex[band[i]], 1};
+
+  ShareSum sum, neighbours;
+  for (int step = 0; step < kSteps; ++step) {
+    for (std::size_t i = 0; i < band.size(); ++i) {
+      const VertexId v = band[i];
+      float weight_sum = 0;
+      for_each_neighbour(
+          mesh, v, [&](VertexId w) { weight_sum += 1 / (1 + std::max(0.0f, -5 * (kappa[v] + kappa[w]))); });
+      sum.clear();
+      sum.add(shares[i], 1);
+      for_each_neighbour(mesh, v, [&](VertexId w) {
+        const float weight = 1 / (1 + std::max(0.0f, -5 * (kappa[v] + kappa[w])));
+        const bool is_in_band = place_in_band[w] != kNone;
+        sum.add(is_in_band ? shares[place_in_band[w]] : Shares{{{label_of_vertex[w], 1}}},
+                weight / weight_sum);
+      });
+      smoothed[i] = sum.greatest();
+    }
+    shares.swap(smoothed);
+  }
+  for (std::size_t i = 0; i < band.size(); ++i) label_of_vertex[band[i]] = shares[i][0].label;
+}
+
+}  // namespace
+
+void smooth_labels(const CornerTable& mesh, std::span<const float> kappa, Minima& labels) {
+  for (int round = 0; round < kRounds; ++round) smooth_once(mesh, kappa, labels.label_of_vertex);
+}
+
+}  // namespace selvage
