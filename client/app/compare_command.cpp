@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "client/app/unpack_command.h"
+#include "client/app/model_source.h"
 #include "common/mesh/same_mesh.h"
 #include "common/mesh_io/read_mesh.h"
 
@@ -22,11 +22,9 @@ Result<Input> read_input(const std::filesystem::path& path) {
     if (!file) return forward_error(file);
     return Input{std::move(file->soup), std::nullopt};
   }
-  auto pack = Pack::open(path);
-  if (!pack) return forward_error(pack);
-  auto mesh = decode_pack(**pack, {}, 0);
-  if (!mesh) return forward_error(mesh, path.string());
-  return Input{std::move(mesh->soup), (*pack)->directory().grid};
+  auto model = fetch_from_pack(path, {});
+  if (!model) return forward_error(model);
+  return Input{std::move(model->mesh.soup), model->directory.grid};
 }
 
 void print_json(const MeshComparison& comparison, double tolerance, double step) {

@@ -2,29 +2,87 @@
 //
 // selvage-client: asks servers for regions, decodes and stitches them, and looks at packs.
 #include <cstdio>
+#include <map>
+#include <string>
 
 #include <CLI/CLI.hpp>
 
 #include "client/app/compare_command.h"
-#include "client/app/unpack_command.h"
+#include "client/app/draw_command.h"
+#include "client/app/get_command.h"
+#include "client/app/list_command.h"
 #include "client/app/verify_command.h"
 
 namespace {
 
 using namespace selvage;
 
-void add(CLI::App& app, UnpackCommand& command) {
-  CLI::App& unpack =
-      *app.add_subcommand("unpack", "Decode regions straight from a pack and write them as one mesh");
-  unpack.add_option("PACK", command.pack, "a .selvage file")->required();
-  unpack.add_option("-o,--output", command.output, "the mesh to write: .ply .obj .off .stl .om")->required();
-  unpack.add_option("--threads", command.threads, "0: all cores")->capture_default_str();
-  command.selection.add_to(unpack);
+void add(CLI::App& app, ListCommand& command) {
+  CLI::App& list = *app.add_subcommand("list", "List the models of a server");
+  list.add_option("SERVER", command.server, "HOST:PORT")->required();
+  list.add_flag("--json", command.json, "print as JSON");
+  list.footer("Example:\n  selvage-client list localhost:7878");
+}
+
+void add(CLI::App& app, RegionsCommand& command) {
+  CLI::App& regions = *app.add_subcommand("regions", "List the regions of a model");
+  regions.add_option("SOURCE", command.source, "HOST:PORT/MODEL or a pack")->required();
+  regions.add_flag("--json", command.json, "print as JSON");
+  regions.footer(
+      "Examples:\n  selvage-client regions localhost:7878/bunny\n  selvage-client regions bunny.selvage "
+      "--json");
+}
+
+void add_output(CLI::App& command, GetCommand& get) {
+  command.add_option("-o,--output", get.output, "the mesh to write: .ply .obj .off .stl .om")->required();
+  command.add_option("--threads", get.threads, "that decode; 0: all cores")->capture_default_str();
+  command.add_flag("--json", get.json, "print counts and times as JSON");
+  get.selection.add_to(command);
+}
+
+void add_get(CLI::App& app, GetCommand& command) {
+  CLI::App& get = *app.add_subcommand("get", "Fetch regions from a server and write them as one mesh");
+  get.add_option("SOURCE", command.source, "HOST:PORT/MODEL")->required();
+  add_output(get, command);
+  get.footer(
+      "Examples:\n"
+      "  selvage-client get localhost:7878/bunny -o bunny.ply\n"
+      "  selvage-client get localhost:7878/bunny --regions 3,5-7 -o ears.obj\n"
+      "  selvage-client get localhost:7878/site --box 0,0,0,10,10,3 --joins none -o room.stl");
+}
+
+void add_unpack(CLI::App& app, GetCommand& command) {
+  CLI::App& unpack = *app.add_subcommand("unpack", "The same as get, straight from a pack");
+  unpack.add_option("PACK", command.source, "a .selvage file")->required();
+  add_output(unpack, command);
+  command.from_pack = true;
   unpack.footer(
       "Examples:\n"
       "  selvage-client unpack bunny.selvage -o bunny.ply\n"
-      "  selvage-client unpack bunny.selvage --regions 3,5-7 -o ears.obj\n"
-      "  selvage-client unpack site.selvage --box 0,0,0,10,10,3 --joins none -o room.stl");
+      "  selvage-client unpack bunny.selvage --regions 3,5-7 --joins none -o ears.obj");
+}
+
+void add(CLI::App& app, DrawCommand& command) {
+  CLI::App& draw =
+      *app.add_subcommand("draw", "Draw a model's regions, in colours and with their numbers, as a PNG");
+  const std::map<std::string, UpAxis> axes = {{"y", UpAxis::Y}, {"z", UpAxis::Z}};
+  draw.add_option("SOURCE", command.source, "HOST:PORT/MODEL or a pack")->required();
+  draw.add_option("-o,--output", command.output, "the picture to write")->required();
+  draw.add_option("--steps", command.steps, "draw the model as it arrives, in so many pictures")
+      ->check(CLI::Range(1, 100));
+  draw.add_option("--size", command.size, "pixels of one picture's width")
+      ->check(CLI::Range(64, 4096))
+      ->capture_default_str();
+  draw.add_option("--up", command.up, "the axis that points up")
+      ->transform(CLI::CheckedTransformer(axes, CLI::ignore_case))
+      ->default_str("y");
+  draw.add_flag("!--no-labels", command.labels, "leave region numbers out");
+  command.selection.add_to(draw);
+  draw.footer(
+      "Examples:\n"
+      "  selvage-client draw bunny.selvage -o bunny.png\n"
+      "  selvage-client draw localhost:7878/bunny --steps 6 -o arrival.png\n"
+      "  selvage-client draw site.selvage --up z --regions 12-20 -o roof.png");
 }
 
 void add(CLI::App& app, VerifyCommand& command) {
@@ -52,7 +110,7 @@ void add(CLI::App& app, CompareCommand& command) {
       "  selvage-client compare bunny.ply fetched.ply --bits 12");
 }
 
-/// 0 done, 1 failed or different, as the command says.
+/// The exit code; errors go to stderr.
 template <class Command>
 int finish(const Command& command) {
   auto result = run(command);
@@ -70,14 +128,26 @@ int main(int argc, char** argv) {
   CLI::App app("Fetches, decodes and stitches regions of selvage models.", "selvage-client");
   app.set_version_flag("--version", SELVAGE_VERSION);
   app.require_subcommand(1);
-  UnpackCommand unpack;
+  app.footer("Exit codes: 0 done (compare: the same), 1 different, 2 failed, 100 and more bad options.");
+  ListCommand list;
+  RegionsCommand regions;
+  GetCommand get, unpack;
+  DrawCommand draw;
   VerifyCommand verify;
   CompareCommand compare;
-  add(app, unpack);
+  add(app, list);
+  add(app, regions);
+  add_get(app, get);
+  add_unpack(app, unpack);
+  add(app, draw);
   add(app, verify);
   add(app, compare);
   CLI11_PARSE(app, argc, argv);
+  if (app.got_subcommand("list")) return finish(list);
+  if (app.got_subcommand("regions")) return finish(regions);
+  if (app.got_subcommand("get")) return finish(get);
   if (app.got_subcommand("unpack")) return finish(unpack);
+  if (app.got_subcommand("draw")) return finish(draw);
   if (app.got_subcommand("verify")) return finish(verify);
   return finish(compare);
 }

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "client/app/unpack_command.h"
+#include "client/app/model_source.h"
 #include "client/decode/region_decoder.h"
 #include "common/mesh/check_corner_table.h"
 
@@ -26,19 +26,20 @@ Result<void> verify_regions(const Pack& pack) {
   return {};
 }
 
-Result<void> verify_whole(const Pack& pack) {
-  const Directory& directory = pack.directory();
-  auto mesh = decode_pack(pack, {.kind = Selection::Kind::All, .joins = Joins::All}, 0);
-  if (!mesh) return forward_error(mesh);
-  const TriangleSoup& soup = mesh->soup;
+Result<void> verify_whole(const std::filesystem::path& path) {
+  auto model = fetch_from_pack(path, {});
+  if (!model) return forward_error(model);
+  const Directory& directory = model->directory;
+  const TriangleSoup& soup = model->mesh.soup;
   if (soup.positions.size() != directory.vertices || soup.triangles.size() != directory.triangles) {
     return fail(
         ErrorCode::BadStream,
-        fmt::format("stitched to {} vertices and {} triangles, but the directory promises {} and {}",
-                    soup.positions.size(), soup.triangles.size(), directory.vertices, directory.triangles));
+        fmt::format("{}: stitched to {} vertices and {} triangles, but the directory promises {} and {}",
+                    path.string(), soup.positions.size(), soup.triangles.size(), directory.vertices, directory.triangles));
   }
   for (const auto& [a, b, c] : soup.triangles) {
-    if (a == b || b == c || c == a) return fail(ErrorCode::BadStream, "a stitched triangle repeats a vertex");
+    if (a == b || b == c || c == a)
+      return fail(ErrorCode::BadStream, path.string() + ": a stitched triangle repeats a vertex");
   }
   return {};
 }
@@ -49,8 +50,8 @@ Result<void> run(const VerifyCommand& command) {
   auto pack = Pack::open(command.pack);
   if (!pack) return forward_error(pack);
   auto ok = verify_regions(**pack);
-  if (ok) ok = verify_whole(**pack);
   if (!ok) return forward_error(ok, command.pack.string());
+  if (ok = verify_whole(command.pack); !ok) return ok;
   const Directory& directory = (*pack)->directory();
   if (command.json) {
     const nlohmann::ordered_json json = {{"pack", command.pack.string()},

@@ -36,17 +36,17 @@ class VertexMap {
   std::uint32_t count_ = 0;
 };
 
-void append_triangle(StitchedMesh& mesh, Triangle triangle, bool is_turned, RegionId region) {
+void append_triangle(TriangleSoup& soup, Triangle triangle, bool is_turned) {
   if (is_turned) std::swap(triangle[1], triangle[2]);
-  mesh.soup.triangles.push_back(triangle);
-  mesh.region_of_triangle.push_back(region);
+  soup.triangles.push_back(triangle);
 }
 
 }  // namespace
 
 Result<void> Stitcher::add_region(RegionId region, RegionMesh mesh) {
   if (region >= directory_.regions.size() || mesh.loops.lengths != directory_.regions[region].loop_lengths) {
-    return fail(ErrorCode::BadStream, "region " + std::to_string(region) + ": boundary loops differ from the directory's");
+    return fail(ErrorCode::BadStream,
+                "region " + std::to_string(region) + ": boundary loops differ from the directory's");
   }
   regions_.insert_or_assign(region, std::move(mesh));
   return {};
@@ -57,7 +57,9 @@ Result<void> Stitcher::add_bundle(RegionId region, std::vector<BoundaryTriangle>
     for (const BoundaryRef& corner : triangle.corners) {
       const bool is_there = corner.region < directory_.regions.size() &&
                             corner.index < directory_.regions[corner.region].boundary_vertices();
-      if (!is_there) return fail(ErrorCode::BadStream, "bundle " + std::to_string(region) + ": names a vertex that is not there");
+      if (!is_there)
+        return fail(ErrorCode::BadStream,
+                    "bundle " + std::to_string(region) + ": names a vertex that is not there");
     }
   }
   bundles_.insert_or_assign(region, std::move(triangles));
@@ -68,12 +70,18 @@ StitchedMesh Stitcher::mesh() const {
   StitchedMesh stitched;
   const VertexMap map(regions_);
   stitched.soup.positions.resize(map.count());
+  stitched.region_of_vertex.assign(map.count(), kNone);
   for (const auto& [id, region] : regions_) {
     const std::vector<VertexId>& vertex = map.of(id);
-    for (VertexId v = 0; v < vertex.size(); ++v) stitched.soup.positions[vertex[v]] = directory_.grid.position(region.positions[v]);
+    for (VertexId v = 0; v < vertex.size(); ++v) {
+      stitched.soup.positions[vertex[v]] = directory_.grid.position(region.positions[v]);
+      RegionId& region_of = stitched.region_of_vertex[vertex[v]];
+      region_of = std::min(region_of, id);
+    }
     for (TriangleId t = 0; t < region.table.triangle_count(); ++t) {
       const auto [a, b, c] = region.table.triangle(t);
-      append_triangle(stitched, {vertex[a], vertex[b], vertex[c]}, !region.is_turned.empty() && region.is_turned[t], id);
+      append_triangle(stitched.soup, {vertex[a], vertex[b], vertex[c]},
+                      !region.is_turned.empty() && region.is_turned[t]);
     }
   }
   for (const auto& [id, triangles] : bundles_) {
@@ -86,7 +94,7 @@ StitchedMesh Stitcher::mesh() const {
         is_complete = present != regions_.end();
         if (is_complete) corners[k] = map.of(region)[present->second.loops.vertices[index]];
       }
-      if (is_complete) append_triangle(stitched, corners, triangle.is_turned, kLooseRegion);
+      if (is_complete) append_triangle(stitched.soup, corners, triangle.is_turned);
     }
   }
   return stitched;

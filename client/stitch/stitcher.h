@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Sews regions together (dissertation Ch. 5.2.2): add regions and bundles in any order, ask for the mesh so far.
-// A boundary triangle appears as soon as all regions that it touches are there; vertices that were cut apart at
-// non-manifold spots are one again as soon as two of them are there. With everything added the mesh is the input,
-// up to the order of vertices and triangles.
+// Sews regions together (dissertation Ch. 5.2.2): add regions and bundles in any order, ask for the mesh so
+// far. A boundary triangle appears as soon as all regions that it touches are there; vertices that were cut
+// apart at non-manifold spots are one again as soon as two of them are there. With everything added the mesh
+// is the input, up to the order of vertices and triangles.
 #pragma once
 
 #include <map>
@@ -18,8 +18,8 @@
 namespace selvage {
 
 struct StitchedMesh {
-  TriangleSoup soup;                           ///< model units, the file's own orientation
-  std::vector<RegionId> region_of_triangle;    ///< kLooseRegion for boundary triangles, which belong to no region
+  TriangleSoup soup;                       ///< model units, the file's own orientation
+  std::vector<RegionId> region_of_vertex;  ///< of a vertex that several regions share, the lowest
 };
 
 class Stitcher {
@@ -27,8 +27,8 @@ class Stitcher {
   /// `directory` is borrowed and must outlive the stitcher.
   explicit Stitcher(const Directory& directory) : directory_(directory) {}
 
-  /// BadStream if the region's loops are not those that the directory states: joins would name other vertices.
-  /// A region added again replaces the one before.
+  /// BadStream if the region's loops are not those that the directory states: joins would name other
+  /// vertices. A region added again replaces the one before.
   Result<void> add_region(RegionId region, RegionMesh mesh);
   /// BadStream if a corner is beyond its region's loops.
   Result<void> add_bundle(RegionId region, std::vector<BoundaryTriangle> triangles);
