@@ -11,7 +11,8 @@ namespace {
 
 /// One direction.
 struct Pipe {
-  Pipe(asio::any_io_executor executor, std::size_t most) : capacity(most), readable(executor), writable(executor) {}
+  Pipe(asio::any_io_executor executor, std::size_t most)
+      : capacity(most), readable(executor), writable(executor) {}
 
   void close() {
     closed = true;
@@ -29,7 +30,10 @@ class MemoryStream final : public ByteStream {
  public:
   MemoryStream(asio::any_io_executor executor, std::shared_ptr<Pipe> in, std::shared_ptr<Pipe> out,
                std::shared_ptr<FaultPlan> fault, std::size_t read_limit)
-      : executor_(executor), in_(std::move(in)), out_(std::move(out)), fault_(std::move(fault)),
+      : executor_(executor),
+        in_(std::move(in)),
+        out_(std::move(out)),
+        fault_(std::move(fault)),
         read_limit_(read_limit) {}
   ~MemoryStream() override { close(); }
 
@@ -52,7 +56,8 @@ class MemoryStream final : public ByteStream {
         while (out_->bytes.size() >= out_->capacity && !out_->closed) co_await out_->writable.wait();
         if (out_->closed) co_return fail(ErrorCode::Io, "the other side has gone");
         const std::size_t count = std::min(piece.size(), out_->capacity - out_->bytes.size());
-        out_->bytes.insert(out_->bytes.end(), piece.begin(), piece.begin() + static_cast<std::ptrdiff_t>(count));
+        out_->bytes.insert(out_->bytes.end(), piece.begin(),
+                           piece.begin() + static_cast<std::ptrdiff_t>(count));
         out_->readable.notify();
         piece = piece.subspan(count);
       }

@@ -21,7 +21,7 @@ struct FaultPlan {
 };
 
 struct MemoryStreamOptions {
-  std::size_t capacity = 64 << 10;  ///< bytes under way in each direction; a write waits beyond
+  std::size_t capacity = 64 << 10;           ///< bytes under way in each direction; a write waits beyond
   std::size_t read_limit = ~std::size_t{0};  ///< most that one read gives
   std::shared_ptr<FaultPlan> first_fault = std::make_shared<FaultPlan>();
   std::shared_ptr<FaultPlan> second_fault = std::make_shared<FaultPlan>();
@@ -29,8 +29,8 @@ struct MemoryStreamOptions {
 
 using StreamPair = std::pair<std::unique_ptr<ByteStream>, std::unique_ptr<ByteStream>>;
 
-/// The two ends of one connection. An end that fails or is closed (or destroyed) looks to the other like a peer
-/// that has gone: what was written can be read, then the stream ends, and writes fail.
+/// The two ends of one connection. An end that fails or is closed (or destroyed) looks to the other like a
+/// peer that has gone: what was written can be read, then the stream ends, and writes fail.
 StreamPair make_memory_streams(asio::any_io_executor executor, MemoryStreamOptions options = {});
 
 }  // namespace selvage::testing
