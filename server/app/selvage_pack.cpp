@@ -9,11 +9,13 @@
 
 #include "server/app/build_command.h"
 #include "server/app/inspect_command.h"
+#include "server/app/sample_command.h"
 
 namespace {
 
 using selvage::BuildCommand;
 using selvage::InspectCommand;
+using selvage::SampleCommand;
 
 void add_segmentation_options(CLI::App& build, selvage::SegmentOptions& segment) {
   using selvage::SegmentMode;
@@ -99,6 +101,17 @@ void add_inspect(CLI::App& app, InspectCommand& command) {
   inspect.footer("Example:\n  selvage-pack inspect bunny.selvage");
 }
 
+void add_sample(CLI::App& app, SampleCommand& command) {
+  CLI::App& sample =
+      *app.add_subcommand("sample", "Write a model that selvage generates itself, to try things with");
+  sample.add_option("NAME", command.name, "which; without it, list what there is");
+  sample.add_option("-o,--output", command.output, "the mesh to write (default: NAME.ply)");
+  sample.add_option("--triangles", command.triangles, "about so many; 0: the sample's own default")
+      ->capture_default_str();
+  sample.footer(
+      "Examples:\n  selvage-pack sample\n  selvage-pack sample waterneck --triangles 400000 -o big.ply");
+}
+
 int finish(const selvage::Result<void>& result) {
   if (result) return 0;
   std::fprintf(stderr, "selvage-pack: %s\n", result.error().to_string().c_str());
@@ -114,7 +127,11 @@ int main(int argc, char** argv) {
   BuildCommand build;
   InspectCommand inspect;
   add_build(app, build);
+  SampleCommand sample;
   add_inspect(app, inspect);
+  add_sample(app, sample);
   CLI11_PARSE(app, argc, argv);
-  return finish(app.got_subcommand("build") ? run(build) : run(inspect));
+  if (app.got_subcommand("build")) return finish(run(build));
+  if (app.got_subcommand("inspect")) return finish(run(inspect));
+  return finish(run(sample));
 }

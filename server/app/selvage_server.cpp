@@ -93,7 +93,8 @@ Result<void> announce(const Options& options, const HostPort& address) {
 /// Counts the signals that ask us to stop, and passes them on.
 class StopSignals {
  public:
-  /// On the listener's strand: otherwise the listener could be gone, and cancel() over, before wait() comes round.
+  /// On the listener's strand: otherwise the listener could be gone, and cancel() over, before wait() comes
+  /// round.
   explicit StopSignals(Listener& listener)
       : signals_(listener.executor(), SIGINT, SIGTERM), listener_(listener) {
     wait();
