@@ -62,7 +62,10 @@ demo_model() {
   name=$(basename -- "${file%.*}")
   address=127.0.0.1:$(< "$out/port")/$name
   printf '\n== %s ==\n\n' "$name"
-  show "$bin/selvage-pack" build "$file" --store "$out/store" --name "$name"
+  # The default finds parts where a surface bends inwards; a machined part also has them at its sharp edges.
+  local mode=xmrg
+  [[ $file != "$out/bracket.ply" ]] || mode=cad
+  show "$bin/selvage-pack" build "$file" --store "$out/store" --name "$name" --mode "$mode"
   echo
   show "$bin/selvage-client" list "${address%/*}"
   echo

@@ -22,11 +22,11 @@ struct ModelAddress {
 
 Result<ModelAddress> parse_address(const std::string& text) {
   const std::size_t slash = text.rfind('/');
-  if (slash == std::string::npos || slash + 1 == text.size()) {
-    return fail(ErrorCode::InvalidArgument, "'" + text + "' is neither a pack nor HOST:PORT/MODEL");
-  }
   auto server = parse_host_port(text.substr(0, slash));
-  if (!server) return forward_error(server, text);
+  if (slash == std::string::npos || slash + 1 == text.size() || !server) {
+    return fail(ErrorCode::InvalidArgument,
+                "'" + text + "' is neither a pack that exists nor HOST:PORT/MODEL");
+  }
   return ModelAddress{std::move(*server), text.substr(slash + 1)};
 }
 
