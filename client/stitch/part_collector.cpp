@@ -9,16 +9,22 @@
 namespace selvage {
 
 Result<void> PartCollector::add(const PartId& id, std::span<const std::byte> bytes) {
-  if (directory_.find(id) == nullptr) return fail(ErrorCode::BadStream, "a part that the directory does not list");
+  if (directory_.find(id) == nullptr)
+    return fail(ErrorCode::BadStream, "a part that the directory does not list");
   const bool is_region = id.kind == PartKind::Region;
   auto ok = is_region ? add_region(id.region, id.level, bytes) : add_bundle(id.region, bytes);
   if (!ok) return forward_error(ok, (is_region ? "region " : "bundle ") + std::to_string(id.region));
   return {};
 }
 
-Result<void> PartCollector::add_region(RegionId region, std::uint8_t level, std::span<const std::byte> bytes) {
-  const LevelEntry& entry = directory_.regions[region].levels[level];
-  auto mesh = decode_region(bytes, {.vertices = entry.vertices, .triangles = entry.triangles});
+Result<void> PartCollector::add_region(RegionId region, std::uint8_t level,
+                                       std::span<const std::byte> bytes) {
+  const RegionEntry& owner = directory_.regions[region];
+  const LevelEntry& entry = owner.levels[level];
+  auto mesh = decode_region(bytes, {.vertices = entry.vertices,
+                                    .triangles = entry.triangles,
+                                    .box_min = owner.box_min,
+                                    .box_max = owner.box_max});
   if (!mesh) return forward_error(mesh);
   const std::scoped_lock lock(mutex_);
   return stitcher_.add_region(region, std::move(*mesh));
