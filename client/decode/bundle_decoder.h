@@ -15,6 +15,7 @@ namespace selvage {
 /// region's loops, every triangle has three different corners and touches the bundle's own region.
 Result<std::vector<BoundaryTriangle>> decode_bundle(std::span<const std::byte> bytes,
                                                     const BundleTopology& topology,
-                                                    std::uint32_t triangle_count);
+                                                    std::uint32_t triangle_count,
+                                                    const CodecTables& tables = shipped_tables());
 
 }  // namespace selvage

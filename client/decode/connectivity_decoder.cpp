@@ -4,7 +4,7 @@
 #include "common/codec/clers.h"
 #include "common/codec/connectivity.h"
 #include "common/codec/region_format.h"
-#include "common/coding/entropy_decoder.h"
+#include <string>
 
 namespace selvage {
 namespace {
@@ -13,10 +13,10 @@ tl::unexpected<Error> corrupt(const char* what) {
   return fail(ErrorCode::BadStream, std::string("region part: corrupt connectivity, ") + what);
 }
 
-/// A count and then that many ascending numbers below `limit`, each as a gap; nothing if they are not.
+/// A count and then that many numbers, each read by `read_one`, which says whether it is sound.
 template <class ReadOne>
-bool read_list(EntropyDecoder<1>& in, AdaptiveModel<33>& counts, std::uint32_t limit, ReadOne read_one) {
-  const std::uint32_t count = in.number(counts);
+bool read_list(EntropyDecoder<2>& in, unsigned count_model, std::uint32_t limit, ReadOne read_one) {
+  const std::uint32_t count = in.number(count_model);
   if (count > limit) return false;
   for (std::uint32_t i = 0; i < count; ++i) {
     if (!read_one() || !in.ok()) return false;
@@ -26,15 +26,20 @@ bool read_list(EntropyDecoder<1>& in, AdaptiveModel<33>& counts, std::uint32_t l
 
 }  // namespace
 
-Result<CornerTable> decode_connectivity(std::span<const std::byte> bytes, std::uint32_t symbols) {
-  EntropyDecoder<1> in(bytes);
-  ConnectivityModels models;
+Result<CornerTable> decode_connectivity(EntropyDecoder<2>& in, std::uint32_t triangles) {
+  // In step with encode_connectivity. Symbols beyond the region's own triangles belong to fans around virtual
+  // vertices: each such triangle has an edge on a boundary loop, so there are fewer of them than there are
+  // edges.
+  const std::int64_t extra = unfold_sign(in.number(region_model::kExtraSymbols));
+  if (extra < -std::int64_t{triangles} || extra > 3 * std::int64_t{triangles} || !in.ok())
+    return corrupt("more symbols than triangles allow");
+  const auto symbols = static_cast<std::uint32_t>(triangles + extra);
 
-  // In step with encode_connectivity.
   std::vector<HandleSplit> splits;
-  const bool splits_are_sound = read_list(in, models.counts, symbols, [&] {
+  const bool splits_are_sound = read_list(in, region_model::kHandleCount, symbols, [&] {
     const std::uint32_t before = splits.empty() ? 0 : splits.back().split;
-    const std::uint32_t gap = in.number(models.handle_gap), reach = in.number(models.handle_reach);
+    const std::uint32_t gap = in.number(region_model::kHandleGap),
+                        reach = in.number(region_model::kHandleReach);
     const bool is_left = in.bits(1) != 0;
     if (gap >= symbols - before || reach >= before + gap) return false;
     splits.push_back({before + gap, before + gap - reach - 1, is_left});
@@ -42,28 +47,27 @@ Result<CornerTable> decode_connectivity(std::span<const std::byte> bytes, std::u
   });
   if (!splits_are_sound) return corrupt("impossible handle");
 
-  ClersModels clers_models(ClersGrower::kContexts);
-  ClersGrower grower(std::move(splits));
+  ClersGrower grower(std::move(splits), symbols);
   for (std::uint32_t i = 0; i < symbols; ++i) {
-    const auto symbol = static_cast<Clers>(in.symbol(clers_models[grower.context()]));
-    if (!grower.grow(symbol) || !in.ok()) return corrupt("impossible symbol");
+    const unsigned symbol = in.symbol(region_model::kClers + grower.context());
+    if (symbol >= kClersCount || !grower.grow(static_cast<Clers>(symbol)) || !in.ok())
+      return corrupt("impossible symbol");
   }
   for (std::uint32_t gate = 0; gate < grower.open_gates(); ++gate) {
-    if (in.symbol(models.is_closed) != 0 && !grower.close(gate))
+    if (in.symbol(region_model::kIsClosed) != 0 && !grower.close(gate))
       return corrupt("a component that does not close");
   }
   CornerTable grown = std::move(grower).take();
 
   std::vector<VertexId> virtual_vertices;
-  const bool virtuals_are_sound = read_list(in, models.counts, grown.vertex_count(), [&] {
+  const bool virtuals_are_sound = read_list(in, region_model::kVirtualCount, grown.vertex_count(), [&] {
     const std::uint64_t before = virtual_vertices.empty() ? 0 : virtual_vertices.back();
-    const std::uint64_t v = before + in.number(models.virtual_gap);
+    const std::uint64_t v = before + in.number(region_model::kVirtualGap);
     if (v >= grown.vertex_count()) return false;
     virtual_vertices.push_back(static_cast<VertexId>(v));
     return true;
   });
   if (!virtuals_are_sound) return corrupt("impossible virtual vertex");
-  if (!in.is_finished()) return corrupt("bytes left over or missing");
   auto connectivity = finish_connectivity(std::move(grown), virtual_vertices);
   if (!connectivity) return corrupt("virtual vertices that share a neighbour's fan");
   return std::move(connectivity->table);

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "common/base/result.h"
+#include "common/coding/entropy_decoder.h"
 #include "common/mesh/corner_table.h"
 
 namespace selvage {
 
-/// The mirror of server/encode/connectivity_encoder.h: `symbols` CLERS symbols from a connectivity stream.
-/// Time and memory are linear in `symbols`, which the caller bounds.
-Result<CornerTable> decode_connectivity(std::span<const std::byte> bytes, std::uint32_t symbols);
+/// The mirror of server/encode/connectivity_encoder.h. Time and memory are linear in `triangles`, which the
+/// caller bounds: the region's own triangles, fans around virtual vertices not counted.
+Result<CornerTable> decode_connectivity(EntropyDecoder<2>& in, std::uint32_t triangles);
 
 }  // namespace selvage

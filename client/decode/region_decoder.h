@@ -5,6 +5,7 @@
 #include <span>
 
 #include "common/base/result.h"
+#include "common/codec/codec_tables.h"
 #include "common/codec/region_mesh.h"
 
 namespace selvage {
@@ -13,12 +14,15 @@ namespace selvage {
 struct DecodeLimits {
   std::uint32_t vertices = 0;
   std::uint32_t triangles = 0;
+  GridPoint box_min, box_max;  ///< of all positions, inclusive, within [0, 2^24)
 };
 
 /// Decodes one region from `bytes`. Needs nothing from other regions. Safe on hostile input: reads only
 /// `bytes`, allocates at most a fixed multiple of what `expected` and the number of bytes allow
 /// (docs/FORMAT.md, "Limits"). Boundary vertices come out in encoder order, which is the order that bundles
 /// refer to.
-Result<RegionMesh> decode_region(std::span<const std::byte> bytes, const DecodeLimits& expected);
+/// `tables` must be those that it was coded with; only benchmarks pass others.
+Result<RegionMesh> decode_region(std::span<const std::byte> bytes, const DecodeLimits& expected,
+                                 const CodecTables& tables = shipped_tables());
 
 }  // namespace selvage

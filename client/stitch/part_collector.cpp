@@ -19,8 +19,12 @@ Result<void> PartCollector::add(const PartId& id, std::span<const std::byte> byt
 
 Result<void> PartCollector::add_region(RegionId region, std::uint8_t level,
                                        std::span<const std::byte> bytes) {
-  const LevelEntry& entry = directory_.regions[region].levels[level];
-  auto mesh = decode_region(bytes, {.vertices = entry.vertices, .triangles = entry.triangles});
+  const RegionEntry& owner = directory_.regions[region];
+  const LevelEntry& entry = owner.levels[level];
+  auto mesh = decode_region(bytes, {.vertices = entry.vertices,
+                                    .triangles = entry.triangles,
+                                    .box_min = owner.box_min,
+                                    .box_max = owner.box_max});
   if (!mesh) return forward_error(mesh);
   const std::scoped_lock lock(mutex_);
   return stitcher_.add_region(region, std::move(*mesh));

@@ -54,17 +54,35 @@ std::uint32_t BundleTopology::before(std::uint32_t vertex) const {
   return vertex == loop.begin ? loop.begin + loop.length - 1 : vertex - 1;
 }
 
-void JoinGates::add_triangle(const std::array<std::uint32_t, 3>& corners, std::uint8_t history) {
-  for (int k = 0; k < 3; ++k) add_edge(corners[k], corners[(k + 1) % 3], history);
+JoinProgress::JoinProgress(const BundleTopology& topology)
+    : topology_(topology),
+      is_covered_(topology.total_vertices(), false),
+      last_touched_(topology.slot_count(), kNone) {}
+
+void JoinProgress::add_start(const std::array<std::uint32_t, 3>& corners) {
+  add_triangle(corners);
+  for (int k = 0; k < 3; ++k) add_gate(corners[k], corners[(k + 1) % 3], 0);
 }
 
-void JoinGates::add_behind(const JoinGate& from, std::uint32_t z, JoinSymbol symbol) {
-  const auto history = static_cast<std::uint8_t>((from.history << 2 | static_cast<int>(symbol)) & 15);
-  add_edge(from.x, z, history);
-  add_edge(z, from.y, history);
+void JoinProgress::add_behind(const JoinGate& from, std::uint32_t z, JoinSymbol symbol) {
+  add_triangle({from.y, from.x, z});
+  const auto history = static_cast<std::uint8_t>((from.history << 2 | static_cast<int>(symbol)) & 63);
+  add_gate(from.x, z, history);
+  add_gate(z, from.y, history);
 }
 
-void JoinGates::add_edge(std::uint32_t tail, std::uint32_t head, std::uint8_t history) {
+void JoinProgress::add_triangle(const std::array<std::uint32_t, 3>& corners) {
+  for (int k = 0; k < 3; ++k) {
+    const std::uint32_t tail = corners[k], head = corners[(k + 1) % 3];
+    last_touched_[topology_.slot_of(tail)] = tail;
+    // The boundary triangle runs its loop edge against the loop's own direction.
+    if (topology_.after(head) == tail) is_covered_[head] = true;
+  }
+}
+
+/// An edge that meets a waiting gate closes it, others wait. Edges within one region are not gates: a region
+/// triangle lies behind them, or nothing that a strip would reach.
+void JoinProgress::add_gate(std::uint32_t tail, std::uint32_t head, std::uint8_t history) {
   if (topology_.slot_of(tail) == topology_.slot_of(head)) return;
   if (const auto waiting = open_.find(key_of(head, tail)); waiting != open_.end() && waiting->second > 0) {
     --waiting->second;
@@ -74,7 +92,7 @@ void JoinGates::add_edge(std::uint32_t tail, std::uint32_t head, std::uint8_t hi
   stack_.push_back({tail, head, history});
 }
 
-bool JoinGates::pop(JoinGate& gate) {
+bool JoinProgress::pop(JoinGate& gate) {
   while (!stack_.empty()) {
     gate = stack_.back();
     stack_.pop_back();
@@ -86,10 +104,22 @@ bool JoinGates::pop(JoinGate& gate) {
   return false;
 }
 
-AdaptiveModel<kJoinSymbols>& JoinModels::at(const BundleTopology& topology, const JoinGate& gate) {
-  const std::uint32_t own = topology.own_slot();
-  const bool touches_own = topology.slot_of(gate.x) == own || topology.slot_of(gate.y) == own;
-  return symbol[gate.history * 2u + touches_own];
+unsigned JoinProgress::model_of(const JoinGate& gate) const {
+  const std::uint32_t own = topology_.own_slot();
+  const bool touches_own = topology_.slot_of(gate.x) == own || topology_.slot_of(gate.y) == own;
+  const bool x_is_covered = is_covered_[topology_.before(gate.x)], y_is_covered = is_covered_[gate.y];
+  return bundle_model::kStep + ((gate.history * 2u + x_is_covered) * 2u + y_is_covered) * 2u + touches_own;
+}
+
+std::uint32_t circular_gap(std::uint32_t from, std::uint32_t to, std::uint32_t count) {
+  const std::uint32_t up = to >= from ? to - from : to + count - from, down = count - up;
+  return up <= down ? 2 * up : 2 * down - 1;
+}
+
+std::uint32_t circular_step(std::uint32_t from, std::uint32_t gap, std::uint32_t base, std::uint32_t count) {
+  const std::uint64_t distance = (std::uint64_t{gap} + 1) / 2 % count;
+  const std::uint64_t up = gap % 2 == 0 ? distance : count - distance;
+  return base + static_cast<std::uint32_t>((from - base + up) % count);
 }
 
 int index_bits(std::uint32_t count) { return count < 2 ? 0 : std::bit_width(count - 1); }

@@ -17,6 +17,8 @@
 //       region of y
 //
 // Strips between two regions never branch; a junction triangle has two gates on, so gates wait on a stack.
+// A walk starts at the lowest edge of the own region's loops whose triangle is in this bundle and not yet
+// known.
 #pragma once
 
 #include <array>
@@ -26,7 +28,7 @@
 #include <vector>
 
 #include "common/base/ids.h"
-#include "common/coding/adaptive_model.h"
+#include "common/codec/codec_tables.h"
 
 namespace selvage {
 
@@ -56,6 +58,7 @@ class BundleTopology {
 
   std::uint32_t slot_count() const { return static_cast<std::uint32_t>(regions_.size()); }
   std::uint32_t own_slot() const { return slot_count() - 1; }
+  std::uint32_t total_vertices() const { return base_.back(); }
   std::uint32_t vertex_count(std::uint32_t slot) const { return base_[slot + 1] - base_[slot]; }
   std::uint32_t vertex(std::uint32_t slot, std::uint32_t index) const { return base_[slot] + index; }
   std::uint32_t slot_of(std::uint32_t vertex) const;
@@ -78,47 +81,60 @@ class BundleTopology {
 };
 
 enum class JoinSymbol : std::uint8_t { AdvanceX, AdvanceY, None, Other };
-inline constexpr int kJoinSymbols = 4;
+inline constexpr unsigned kJoinSymbols = 4;
 
 /// An edge of a triangle already coded, whose other side is not yet known.
 struct JoinGate {
   std::uint32_t x = 0, y = 0;
-  std::uint8_t history = 0;  ///< the last two symbols on the way here
+  std::uint8_t history = 0;  ///< the last three symbols on the way here
 };
 
-/// The gates still to be asked about. Encoder and decoder feed it the same triangles, so it decides alike on
-/// both.
-class JoinGates {
+/// What encoder and decoder know of a bundle while it grows: the gates still to be asked about, the loop
+/// edges that have their triangle, and where each region was touched last. Both feed it the same triangles,
+/// so it decides alike.
+class JoinProgress {
  public:
-  explicit JoinGates(const BundleTopology& topology) : topology_(topology) {}
+  explicit JoinProgress(const BundleTopology& topology);
 
-  /// The edges of a new triangle: one that meets a waiting gate closes it, others wait. Edges within one
-  /// region are not gates: a region triangle lies behind them, or nothing that a strip would reach.
-  void add_triangle(const std::array<std::uint32_t, 3>& corners, std::uint8_t history);
-  /// The triangle entered through `from`: like add_triangle, but its edge on that gate is settled.
+  /// The corners of a triangle that a start names: edges between regions become gates.
+  void add_start(const std::array<std::uint32_t, 3>& corners);
+  /// The triangle (from.y, from.x, z) entered through `from`, whose edge on that gate is settled.
   void add_behind(const JoinGate& from, std::uint32_t z, JoinSymbol symbol);
 
   /// The next gate to ask about, false if none waits.
   bool pop(JoinGate& gate);
 
+  /// The model of the symbol behind a gate: by the way the strip ran so far, whether the two loop edges that
+  /// it could advance along are still free, and whether the bundle's own region is at the gate.
+  unsigned model_of(const JoinGate& gate) const;
+
+  /// True if the loop edge from `vertex` to the one after it has its boundary triangle.
+  bool is_covered(std::uint32_t vertex) const { return is_covered_[vertex]; }
+
+  /// The vertex of a slot that came up last, kNone before the first.
+  std::uint32_t last_touched(std::uint32_t slot) const { return last_touched_[slot]; }
+
  private:
-  void add_edge(std::uint32_t tail, std::uint32_t head, std::uint8_t history);
+  void add_triangle(const std::array<std::uint32_t, 3>& corners);
+  void add_gate(std::uint32_t tail, std::uint32_t head, std::uint8_t history);
 
   const BundleTopology& topology_;
   std::vector<JoinGate> stack_;
   std::unordered_map<std::uint64_t, std::uint32_t> open_;  ///< directed edge -> how many gates wait on it
+  std::vector<bool> is_covered_;                           ///< by vertex: its loop edge on
+  std::vector<std::uint32_t> last_touched_;                ///< by slot
 };
 
-/// Models of a bundle's stream.
-struct JoinModels {
-  std::array<AdaptiveModel<kJoinSymbols>, 32> symbol;
-  AdaptiveModel<kJoinSymbols> start;
-  AdaptiveModel<33> slot;
-  AdaptiveModel<2> has_turned, turned[2];
-
-  /// By the way the strip ran so far, and whether the bundle's own region is at the gate.
-  AdaptiveModel<kJoinSymbols>& at(const BundleTopology& topology, const JoinGate& gate);
+/// How a start names its triangle.
+enum class JoinStart : std::uint8_t {
+  OwnEdge,  ///< by the own region's loop edge, counted from the start before, and the tip in another region
+  Corners,  ///< by its three corners
 };
+
+/// How far apart two vertices of one region are in the numbering of its `count` boundary vertices, around the
+/// end if that is shorter; even numbers go up. circular_step is its inverse.
+std::uint32_t circular_gap(std::uint32_t from, std::uint32_t to, std::uint32_t count);
+std::uint32_t circular_step(std::uint32_t from, std::uint32_t gap, std::uint32_t base, std::uint32_t count);
 
 /// Bits that an index below `count` takes uncoded.
 int index_bits(std::uint32_t count);

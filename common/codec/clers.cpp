@@ -5,14 +5,21 @@
 
 namespace selvage {
 
+ClersGrower::ClersGrower(std::vector<HandleSplit> splits, std::uint32_t triangles)
+    : splits_(std::move(splits)) {
+  vertex_of_corner_.resize(3 * std::size_t{triangles});
+  opposite_.resize(3 * std::size_t{triangles}, kNone);
+  triangles_at_.reserve(triangles / 2 + 3);
+}
+
 unsigned ClersGrower::context() const {
-  const auto last = static_cast<unsigned>(last_);
-  if (gates_.empty()) return last * 32;
+  constexpr unsigned kCounts = region_model::kClersCounts;
+  const unsigned last = static_cast<unsigned>(last_) * kCounts * kCounts;
+  if (gates_.empty()) return last;
   const CornerId gate = gates_.back();
-  // A C closes the vertex at the gate's tail, so its count says most; the head's only shades it.
-  const unsigned tail = std::min(triangles_at_[vertex_of_corner_[next(gate)]], 8u) - 1;
-  const unsigned head = std::min((triangles_at_[vertex_of_corner_[prev(gate)]] - 1) / 2, 3u);
-  return (last * 8 + tail) * 4 + head;
+  const unsigned tail = std::min(triangles_at_[vertex_of_corner_[next(gate)]], kCounts) - 1;
+  const unsigned head = std::min(triangles_at_[vertex_of_corner_[prev(gate)]], kCounts) - 1;
+  return last + tail * kCounts + head;
 }
 
 bool ClersGrower::grow(Clers symbol) {
@@ -93,22 +100,26 @@ bool ClersGrower::close(std::uint32_t gate) {
 
 CornerTable ClersGrower::take() && {
   CornerTable table;
+  vertex_of_corner_.resize(used_);
+  opposite_.resize(used_);
   table.vertex_of_corner = std::move(vertex_of_corner_);
   table.opposite = std::move(opposite_);
-  std::vector<VertexId> renumbered(triangles_at_.size(), kNone);
-  std::uint32_t used = 0;
-  for (VertexId& v : table.vertex_of_corner) {
-    if (renumbered[v] == kNone) renumbered[v] = used++;
-    v = renumbered[v];
-  }
-  table.set_corner_of_vertex(used);
+  table.set_corner_of_vertex(static_cast<std::uint32_t>(triangles_at_.size()));
   return table;
 }
 
 CornerId ClersGrower::add_triangle(VertexId tip, VertexId after, VertexId before) {
-  const auto corner = static_cast<CornerId>(vertex_of_corner_.size());
-  vertex_of_corner_.insert(vertex_of_corner_.end(), {tip, after, before});
-  opposite_.insert(opposite_.end(), 3, kNone);
+  if (used_ ==
+      vertex_of_corner_.size()) {  // only triangles that close components go beyond what was announced
+    vertex_of_corner_.resize(used_ + 3);
+    opposite_.resize(used_ + 3, kNone);
+  }
+  const CornerId corner = used_;
+  used_ += 3;
+  VertexId* vertices = &vertex_of_corner_[corner];
+  vertices[0] = tip;
+  vertices[1] = after;
+  vertices[2] = before;
   for (VertexId v : {tip, after, before}) ++triangles_at_[v];
   return corner;
 }

@@ -22,7 +22,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/coding/adaptive_model.h"
+#include "common/codec/codec_tables.h"
 #include "common/mesh/corner_table.h"
 
 namespace selvage {
@@ -42,12 +42,10 @@ struct HandleSplit {
 /// gate is opposite 3t, the right edge opposite 3t+1, the left edge opposite 3t+2.
 class ClersGrower {
  public:
-  static constexpr unsigned kContexts = kClersCount * 8 * 4;
+  /// `splits` ascending by `split`. Makes room for `triangles`, which the caller has bounded.
+  ClersGrower(std::vector<HandleSplit> splits, std::uint32_t triangles);
 
-  /// `splits` ascending by `split`. Nothing is reserved ahead of what is grown.
-  explicit ClersGrower(std::vector<HandleSplit> splits) : splits_(std::move(splits)) {}
-
-  /// The context of the next symbol: the last symbol and how many triangles surround the gate's two ends.
+  /// The model of the next symbol: by the last symbol and how many triangles surround the gate's two ends.
   unsigned context() const;
 
   /// Glues the next triangle. False if no mesh has this symbol here: the stream is corrupt.
@@ -55,13 +53,14 @@ class ClersGrower {
 
   /// Components that are complete or growing: one gate is left for each.
   std::uint32_t open_gates() const { return static_cast<std::uint32_t>(gates_.size()); }
-  std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(vertex_of_corner_.size() / 3); }
+  std::uint32_t triangle_count() const { return used_ / 3; }
 
   /// Closes the component whose gate is the `gate`-th by the triangle that the encoder started from. False if
   /// the component's border is not three edges.
   bool close(std::uint32_t gate);
 
-  /// The grown connectivity; vertices numbered by first use. The grower is spent.
+  /// The grown connectivity. Vertices keep the numbers they grew with, among which those that were merged
+  /// away are missing: they have no corner. The grower is spent.
   CornerTable take() &&;
 
  private:
@@ -79,11 +78,10 @@ class ClersGrower {
   std::size_t next_split_ = 0;
   std::vector<CornerId> gates_;  ///< corners that face the open gates, the current one on top
   Clers last_ = Clers::E;
+  CornerId used_ = 0;  ///< corners grown so far; both arrays are as long as was announced
   std::vector<VertexId> vertex_of_corner_;
   std::vector<CornerId> opposite_;
   std::vector<std::uint32_t> triangles_at_;  ///< by vertex: grown triangles around it; 0 once merged away
 };
-
-using ClersModels = std::vector<AdaptiveModel<kClersCount>>;  ///< kContexts of them
 
 }  // namespace selvage

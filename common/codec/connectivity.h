@@ -14,8 +14,8 @@ namespace selvage {
 
 struct Connectivity {
   CornerTable table;  ///< vertices numbered in the order their positions are coded in
-  std::vector<TriangleId>
-      grown_of_triangle;  ///< corners keep their place: corner k of triangle t was 3 * grown + k
+  /// Corners keep their place: corner k of triangle t was 3 * grown + k. Empty if no triangle was dropped.
+  std::vector<TriangleId> grown_of_triangle;
 };
 
 /// A region's boundary loops other than its outer one are coded as if closed by a fan around a virtual

@@ -1,24 +1,20 @@
 // SPDX-License-Identifier: MIT
 //
-// The region part's layout (docs/FORMAT.md, "Region part"):
+// The region part's layout (docs/FORMAT.md, "Region part"): one byte of version and flags, then everything
+// else in one entropy-coded span of two states: connectivity, blends, positions, turned bits, anchors.
 //
-//   u8      version and flags: low 4 bits kRegionPartVersion, then has_turned, has_anchors, two reserved (0)
-//   u8      grid bits of this part's positions
-//   varint  symbols: CLERS symbols in the connectivity stream
-//   varint  size of the connectivity stream in bytes
-//   bytes   connectivity stream: entropy coded, one state
-//   bytes   attribute stream: entropy coded, two states, to the end of the part: positions, turned bits,
-//   anchors
+//   u8      low 4 bits kRegionPartVersion, then has_turned, has_anchors, two reserved (0)
+//   bytes   entropy coded to the end of the part
 //
-// A part without symbols holds loose vertices: its connectivity stream is empty, and their number comes first
-// in the attribute stream.
+// A part of a region without triangles holds loose vertices: their number stands in place of connectivity.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "common/base/result.h"
-#include "common/coding/adaptive_model.h"
+#include "common/codec/codec_tables.h"
+#include "common/codec/predictor.h"
 #include "common/coding/byte_io.h"
 #include "common/mesh/boundary_loops.h"
 
@@ -29,31 +25,34 @@ inline constexpr std::uint8_t kRegionPartVersion = 1;
 struct RegionPartHeader {
   bool has_turned = false;
   bool has_anchors = false;
-  int bits = 0;
-  std::uint32_t symbols = 0;
-  std::uint32_t connectivity_size = 0;
 };
 
 void write_region_header(ByteWriter& out, const RegionPartHeader& header);
 Result<RegionPartHeader> read_region_header(ByteReader& in);
 
-/// The models of everything in a connectivity stream that is not a CLERS symbol.
-struct ConnectivityModels {
-  AdaptiveModel<33> counts;
-  AdaptiveModel<33> handle_gap, handle_reach;
-  AdaptiveModel<33> virtual_gap;
-  AdaptiveModel<2> is_closed;
+/// An inclusive box on the grid.
+struct GridBox {
+  GridPoint low, high;
+  std::int32_t extent() const;
+  bool holds(const GridPoint& p) const {
+    return p.x >= low.x && p.y >= low.y && p.z >= low.z && p.x <= high.x && p.y <= high.y && p.z <= high.z;
+  }
+  /// Bits that an offset from `low` takes.
+  int offset_bits(int axis) const;
 };
 
-/// Turned bits in the context of the triangle before; anchors as gaps in the order "boundary vertices by
-/// boundary index, then the others", groups as differences from one more than the group before.
-struct AttributeModels {
-  AdaptiveModel<33> loose_count;
-  AdaptiveModel<2> turned[2];
-  AdaptiveModel<33> anchor_gap, group_step;
-};
+/// One axis of a residual: magnitude m is split at the class's raw_low_bits k. m >> k is a symbol 0..14, or
+/// 15 and the excess as a number; then, unless m is 0, the k low bits and the sign above them. Mirrors:
+/// server/encode/attribute_encoder.cpp, client/decode/attribute_decoder.cpp.
+inline constexpr std::uint32_t kMagnitudeEscape = 15;
+inline unsigned magnitude_model(unsigned axis, const Surroundings& around, const SizeClass& size) {
+  const unsigned several = around.parallelograms >= 2;
+  return region_model::kMagnitude + (axis * 2 + several) * region_model::kMagnitudes + size.magnitude;
+}
+/// More than any valid residual can be: predictions lie within 2^28 of the grid.
+inline constexpr std::uint32_t kMaxResidual = 1u << 29;
 
-/// The order that anchor gaps count in.
+/// The order that anchor gaps count in: boundary vertices by boundary index, then the others.
 std::vector<VertexId> anchor_order(const BoundaryLoops& loops, std::uint32_t vertex_count);
 
 /// Maps signed to unsigned so that small magnitudes stay small: 0, -1, 1, -2 -> 0, 1, 2, 3.

@@ -9,21 +9,30 @@
 #include <cstdint>
 #include <span>
 
-#include "common/coding/adaptive_model.h"
+#include "common/coding/symbol_models.h"
 
 namespace selvage {
 
-inline constexpr std::uint32_t kStateLow =
-    1u << 16;  ///< states stay in [2^16, 2^32); they start here and end here
+/// States stay in [2^16, 2^32); the encoder's start here, so the decoder's end here.
+inline constexpr std::uint32_t kStateLow = 1u << 16;
 
-/// A byte backs at most this many symbols: the likeliest one leaves at least 2^-15 to the others.
-inline constexpr std::uint64_t kMaxSymbolsPerByte = 8 << 15;
+/// A byte backs at most this many symbols: the likeliest one leaves at least 2^-15 to each of the 15 others,
+/// which costs 2^-15 * 15 / ln 2 bits.
+inline constexpr std::uint64_t kMaxSymbolsPerByte = 8 << 11;
+
+/// Bit lengths from here on take an escape and kLongNumberBits more bits.
+inline constexpr int kLongNumber = 15;
+inline constexpr int kLongNumberBits = 5;
 
 template <int States>
 class EntropyDecoder {
  public:
-  explicit EntropyDecoder(std::span<const std::byte> bytes)
-      : at_(bytes.data()), end_(bytes.data() + bytes.size()) {
+  EntropyDecoder(std::span<const std::byte> bytes, std::span<const StartModel> start)
+      : models_(start),
+        begin_(bytes.data()),
+        at_(bytes.data()),
+        end_(bytes.data() + bytes.size()),
+        bits_at_(end_) {
     for (std::uint32_t& state : states_) {
       const std::uint32_t high = word();
       state = high << 16 | word();
@@ -31,30 +40,31 @@ class EntropyDecoder {
     }
   }
 
-  template <int N>
-  unsigned symbol(AdaptiveModel<N>& model) {
-    const std::uint32_t slot = states_[turn_] & (kProbabilityOne - 1);
-    const unsigned symbol = model.find(slot);
-    advance(model.range(symbol), slot);
-    model.update(symbol);
+  unsigned symbol(unsigned model) {
+    std::uint32_t& state = states_[turn_];
+    if constexpr (States > 1) turn_ = turn_ + 1 == States ? 0 : turn_ + 1;
+    const std::uint32_t slot = state & (kProbabilityOne - 1);
+    const unsigned symbol = models_.find(model, slot);
+    const SymbolRange range = models_.range(model, symbol);
+    models_.update(model, symbol);
+    state = range.frequency * (state >> kProbabilityBits) + slot - range.start;
+    if (state < kStateLow) state = state << 16 | word();
     return symbol;
   }
 
+  /// `count` <= 32.
   std::uint32_t bits(int count) {
-    std::uint32_t value = 0;
-    for (int done = 0; done < count;) {
-      const int step = count - done < kRawBits ? count - done : kRawBits;
-      const std::uint32_t slot = states_[turn_] & (kProbabilityOne - 1);
-      const std::uint32_t piece = slot >> (kProbabilityBits - step);
-      advance({piece << (kProbabilityBits - step), 1u << (kProbabilityBits - step)}, slot);
-      value |= piece << done;
-      done += step;
-    }
+    if (filled_ < count) refill();
+    const auto value = static_cast<std::uint32_t>(buffer_ & ((std::uint64_t{1} << count) - 1));
+    buffer_ >>= count;
+    filled_ -= count;
     return value;
   }
 
-  std::uint32_t number(AdaptiveModel<33>& length_model) {
-    const auto length = static_cast<int>(symbol(length_model));
+  std::uint32_t number(unsigned length_model) {
+    int length = static_cast<int>(symbol(length_model));
+    if (length == kLongNumber) length += static_cast<int>(bits(kLongNumberBits));
+    if (length > 32) overran_ = true, length = 0;
     return length < 2 ? static_cast<std::uint32_t>(length) : (1u << (length - 1)) + bits(length - 1);
   }
 
@@ -66,12 +76,13 @@ class EntropyDecoder {
     for (std::uint32_t state : states_) {
       if (state != kStateLow) return false;
     }
-    return !overran_ && at_ == end_;
+    // Whole bytes in the buffer were read ahead; the bits of a byte begun must be zero.
+    const std::byte* used_to = bits_at_ + filled_ / 8;
+    const std::uint64_t padding = buffer_ & ((std::uint64_t{1} << (filled_ % 8)) - 1);
+    return !overran_ && padding == 0 && at_ == used_to;
   }
 
  private:
-  static constexpr int kRawBits = 12;
-
   std::uint32_t word() {
     if (end_ - at_ < 2) {
       overran_ = true;
@@ -82,17 +93,32 @@ class EntropyDecoder {
     return low | high << 8;
   }
 
-  void advance(SymbolRange range, std::uint32_t slot) {
-    std::uint32_t& state = states_[turn_];
-    state = range.frequency * (state >> kProbabilityBits) + slot - range.start;
-    if (state < kStateLow) state = state << 16 | word();
-    turn_ = turn_ + 1 == States ? 0 : turn_ + 1;
+  /// At least 32 bits. Reading ahead may take bytes that are words' as well; is_finished() finds out.
+  void refill() {
+    if (bits_at_ - begin_ >= 4) {
+      bits_at_ -= 4;
+      std::uint64_t four = 0;
+      for (int i = 0; i < 4; ++i) four |= std::to_integer<std::uint64_t>(bits_at_[i]) << (24 - 8 * i);
+      buffer_ |= four << filled_;
+      filled_ += 32;
+      return;
+    }
+    while (filled_ < 32) {
+      if (bits_at_ != begin_) {
+        buffer_ |= std::to_integer<std::uint64_t>(*--bits_at_) << filled_;
+      } else {
+        overran_ = true;
+      }
+      filled_ += 8;
+    }
   }
 
-  const std::byte* at_;
-  const std::byte* end_;
+  SymbolModels models_;
+  const std::byte *begin_, *at_, *end_, *bits_at_;
   std::array<std::uint32_t, States> states_{};
   int turn_ = 0;
+  std::uint64_t buffer_ = 0;
+  int filled_ = 0;
   bool overran_ = false;
 };
 

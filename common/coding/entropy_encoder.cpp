@@ -3,38 +3,65 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 #include "common/coding/entropy_decoder.h"
 
 namespace selvage {
 
+void EntropyEncoder::number(unsigned length_model, std::uint32_t value) {
+  const int length = std::bit_width(value);
+  symbol(length_model, static_cast<unsigned>(std::min(length, kLongNumber)));
+  if (length >= kLongNumber) bits(static_cast<std::uint32_t>(length - kLongNumber), kLongNumberBits);
+  if (length > 1) bits(value - (1u << (length - 1)), length - 1);
+}
+
 template <int States>
-Bytes EntropyEncoder::finish() const {
+EntropyEncoder::Coded EntropyEncoder::finish(std::span<const StartModel> start) const {
+  SymbolModels models(start);
+  std::vector<std::uint32_t> ranges;  // start in the high half, frequency in the low one
+  ranges.reserve(tokens_.size());
+  for (const Token& token : tokens_) {
+    const SymbolRange range = models.range(token.model, token.symbol);
+    models.update(token.model, token.symbol);
+    ranges.push_back(range.start << 16 | range.frequency);
+  }
+
   std::array<std::uint32_t, States> states;
   states.fill(kStateLow);
   std::vector<std::uint16_t> words;  // in the order of coding, which is the reverse of the order of reading
-  words.reserve(ranges_.size() / 4 + 2 * States);
-  for (std::size_t i = ranges_.size(); i-- > 0;) {
-    const std::uint32_t start = ranges_[i] >> 16, frequency = ranges_[i] & 0xFFFF;
+  words.reserve(ranges.size() / 4 + 2 * States);
+  std::size_t words_behind_mark = 0;
+  for (std::size_t i = ranges.size(); i-- > 0;) {
+    if (i + 1 == mark_) words_behind_mark = words.size();
+    const std::uint32_t begin = ranges[i] >> 16, frequency = ranges[i] & 0xFFFF;
     std::uint32_t& state = states[i % States];
     // The largest state that `frequency` still fits below 2^32: one word out is always enough.
     if ((state >> 17) >= frequency) {
       words.push_back(static_cast<std::uint16_t>(state));
       state >>= 16;
     }
-    state = (state / frequency << kProbabilityBits) + state % frequency + start;
+    state = (state / frequency << kProbabilityBits) + state % frequency + begin;
   }
   for (int s = States; s-- > 0;) {
     words.push_back(static_cast<std::uint16_t>(states[s]));
     words.push_back(static_cast<std::uint16_t>(states[s] >> 16));
   }
-  std::reverse(words.begin(), words.end());
-  ByteWriter out;
-  for (std::uint16_t word : words) out.u16(word);
-  return std::move(out).take();
+
+  Coded coded;
+  if (mark_ > 0) coded.bytes_to_mark = 2 * (words.size() - words_behind_mark);
+  Bytes& out = coded.bytes;
+  out.reserve(2 * words.size() + raw_.size() + 1);
+  for (auto word = words.rbegin(); word != words.rend(); ++word) {
+    out.push_back(static_cast<std::byte>(*word));
+    out.push_back(static_cast<std::byte>(*word >> 8));
+  }
+  if (filled_ > 0) out.push_back(static_cast<std::byte>(buffer_));
+  out.insert(out.end(), raw_.rbegin(), raw_.rend());
+  return coded;
 }
 
-template Bytes EntropyEncoder::finish<1>() const;
-template Bytes EntropyEncoder::finish<2>() const;
+template EntropyEncoder::Coded EntropyEncoder::finish<1>(std::span<const StartModel>) const;
+template EntropyEncoder::Coded EntropyEncoder::finish<2>(std::span<const StartModel>) const;
 
 }  // namespace selvage

@@ -1,60 +1,70 @@
 // SPDX-License-Identifier: MIT
 //
-// Range asymmetric numeral systems [Duda 2014], 32-bit states, 16-bit renormalisation. rANS decodes last-in
-// first-out, so the encoder records ranges while models adapt forwards and codes them backwards in finish().
-// Mirror: entropy_decoder.h.
+// Range asymmetric numeral systems [Duda 2014], 32-bit states, 16-bit renormalisation, for symbols; plain
+// bits for what no model helps with. One span holds both: words from its front, bits from its back.
+//
+//   | words of the states, forwards --> | <-- bits, backwards |
+//
+// rANS decodes last-in first-out, so the encoder only takes notes and does the work in finish(). Mirror:
+// entropy_decoder.h.
 #pragma once
 
-#include <bit>
 #include <cstdint>
+#include <span>
 #include <vector>
 
-#include "common/coding/adaptive_model.h"
 #include "common/coding/byte_io.h"
+#include "common/coding/symbol_models.h"
 
 namespace selvage {
 
-class EntropyEncoder {
- public:
-  template <int N>
-  void symbol(AdaptiveModel<N>& model, unsigned symbol) {
-    record(model.range(symbol));
-    model.update(symbol);
-  }
-
-  /// `count` <= 32 bits without a model.
-  void bits(std::uint32_t value, int count) {
-    for (; count > kRawBits; count -= kRawBits) {
-      raw(value & ((1u << kRawBits) - 1), kRawBits);
-      value >>= kRawBits;
-    }
-    if (count > 0) raw(value, count);
-  }
-
-  /// Any 32-bit number: its bit length through the model, the rest raw. Cheap for whatever range prevails.
-  void number(AdaptiveModel<33>& length_model, std::uint32_t value) {
-    const int length = std::bit_width(value);
-    symbol(length_model, static_cast<unsigned>(length));
-    if (length > 1) bits(value - (1u << (length - 1)), length - 1);
-  }
-
-  /// Codes everything recorded. `States` interleaved states (1 for short streams, 2 where speed counts) cost
-  /// two bytes each; the decoder must be made for the same number.
-  template <int States>
-  Bytes finish() const;
-
- private:
-  static constexpr int kRawBits = 12;
-
-  void record(SymbolRange range) { ranges_.push_back(range.start << 16 | range.frequency); }
-  void raw(std::uint32_t value, int count) {
-    record({value << (kProbabilityBits - count), 1u << (kProbabilityBits - count)});
-  }
-
-  std::vector<std::uint32_t> ranges_;  ///< start in the high half, frequency in the low one
+/// A symbol yet to be coded: in training and statistics, what models are fed with.
+struct Token {
+  std::uint32_t model : 28;
+  std::uint32_t symbol : 4;
 };
 
-extern template Bytes EntropyEncoder::finish<1>() const;
-extern template Bytes EntropyEncoder::finish<2>() const;
+class EntropyEncoder {
+ public:
+  void symbol(unsigned model, unsigned symbol) { tokens_.push_back({model, symbol}); }
+
+  /// `count` <= 32 bits without a model; `value` < 2^count.
+  void bits(std::uint32_t value, int count) {
+    buffer_ |= std::uint64_t{value} << filled_;
+    filled_ += count;
+    bit_count_ += static_cast<std::uint64_t>(count);
+    for (; filled_ >= 8; filled_ -= 8, buffer_ >>= 8) raw_.push_back(static_cast<std::byte>(buffer_));
+  }
+
+  /// Any 32-bit number: its bit length through the model (15 and more escape), the rest as bits. Cheap for
+  /// whatever range prevails.
+  void number(unsigned length_model, std::uint32_t value);
+
+  std::span<const Token> tokens() const { return tokens_; }
+  std::uint64_t bit_count() const { return bit_count_; }
+
+  /// Remembers this place: finish() tells how many bytes come before it.
+  void mark() { mark_ = tokens_.size(); }
+
+  struct Coded {
+    Bytes bytes;
+    std::size_t bytes_to_mark = 0;  ///< of symbols, give or take a few
+  };
+  /// Codes everything noted, with models that begin as `start`. `States` interleaved states (1 for short
+  /// streams, 2 where speed counts) cost two bytes each; the decoder must be made for the same number.
+  template <int States>
+  Coded finish(std::span<const StartModel> start) const;
+
+ private:
+  std::vector<Token> tokens_;
+  std::vector<std::byte> raw_;
+  std::uint64_t buffer_ = 0;
+  int filled_ = 0;
+  std::uint64_t bit_count_ = 0;
+  std::size_t mark_ = 0;
+};
+
+extern template EntropyEncoder::Coded EntropyEncoder::finish<1>(std::span<const StartModel>) const;
+extern template EntropyEncoder::Coded EntropyEncoder::finish<2>(std::span<const StartModel>) const;
 
 }  // namespace selvage

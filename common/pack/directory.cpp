@@ -189,6 +189,7 @@ void write_summary(ByteWriter& out, Directory& directory, const std::vector<Page
   out.varint(directory.vertices);
   out.varint(directory.triangles);
   out.varint(directory.boundary_triangles);
+  out.varint(directory.connectivity_bytes);
   out.varint(directory.regions.size());
   for (const Page& page : pages) {
     out.varint(page.bytes.size());
@@ -236,6 +237,7 @@ Summary read_summary(ByteReader& in, Directory& directory) {
   directory.vertices = in.varint32();
   directory.triangles = in.varint32();
   directory.boundary_triangles = in.varint32();
+  directory.connectivity_bytes = in.varint();
   Summary summary;
   summary.region_count = in.varint32();
   if (summary.region_count == 0 || page_count(summary.region_count) > in.left()) in.set_failed();

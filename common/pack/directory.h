@@ -46,9 +46,9 @@ struct RegionEntry {
   GridPoint box_min, box_max;               ///< of the region's vertices, inclusive, on the grid
   std::vector<std::uint32_t> loop_lengths;  ///< full-resolution boundary loops in canonical order;
                                             ///< for the loose region: one entry, its number of vertices
-  std::vector<RegionId> lower_neighbours;   ///< the other regions that this region's bundle touches, ascending
-  std::vector<LevelEntry> levels;           ///< finest first; empty only for a loose region without vertices
-  PartRef bundle;                           ///< all boundary triangles whose highest region is this one
+  std::vector<RegionId> lower_neighbours;  ///< the other regions that this region's bundle touches, ascending
+  std::vector<LevelEntry> levels;          ///< finest first; empty only for a loose region without vertices
+  PartRef bundle;                          ///< all boundary triangles whose highest region is this one
   std::uint32_t bundle_triangles = 0;
 
   std::uint32_t boundary_vertices() const;
@@ -56,12 +56,12 @@ struct RegionEntry {
 
 /// What became of the input, for people and for `compare`: counts of the file's own elements.
 struct SourceCounts {
-  std::uint32_t vertices = 0;              ///< in the file
-  std::uint32_t triangles = 0;             ///< in the file, after triangulation of polygons
-  std::uint32_t dropped_triangles = 0;     ///< with a repeated index
+  std::uint32_t vertices = 0;           ///< in the file
+  std::uint32_t triangles = 0;          ///< in the file, after triangulation of polygons
+  std::uint32_t dropped_triangles = 0;  ///< with a repeated index
   std::uint32_t unreferenced_vertices = 0;
-  std::uint32_t flipped_triangles = 0;     ///< turned for coding, turned back by the decoder
-  std::uint32_t cut_vertices = 0;          ///< copies made at non-manifold spots, welded again by the stitcher
+  std::uint32_t flipped_triangles = 0;  ///< turned for coding, turned back by the decoder
+  std::uint32_t cut_vertices = 0;       ///< copies made at non-manifold spots, welded again by the stitcher
 };
 
 struct Directory {
@@ -73,6 +73,7 @@ struct Directory {
   std::uint32_t vertices = 0;            ///< of the stitched mesh
   std::uint32_t triangles = 0;           ///< of the stitched mesh
   std::uint32_t boundary_triangles = 0;  ///< of those, the ones in bundles
+  std::uint64_t connectivity_bytes = 0;  ///< of all region parts, the share that is connectivity: for people
   std::vector<RegionEntry> regions;      ///< by RegionId; [kLooseRegion] always exists
 
   const PartRef* find(const PartId& id) const;  ///< null if there is no such part
@@ -89,7 +90,8 @@ struct DirectoryBytes {
 /// parts follow the directory in region order, a region's levels coarsest first, then its bundle.
 DirectoryBytes write_directory(Directory& directory);
 
-/// Parses and checks hostile bytes: page hashes, counts, order, and that parts tile [end of directory, end of file).
+/// Parses and checks hostile bytes: page hashes, counts, order, and that parts tile [end of directory, end of
+/// file).
 Result<Directory> parse_directory(std::span<const std::byte> bytes, std::uint32_t summary_size);
 
 /// The identity of the pack with this directory.

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "server/app/inspect_command.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "common/codec/region_format.h"
 #include "common/pack/pack.h"
 
 namespace selvage {
@@ -15,20 +16,17 @@ struct ByteShares {
   std::size_t connectivity = 0, attributes = 0, joins = 0, headers = 0, directory = 0;
 };
 
-Result<ByteShares> measure(const Pack& pack) {
+ByteShares measure(const Pack& pack) {
+  const Directory& directory = pack.directory();
   ByteShares shares;
   shares.directory = kPackHeaderSize + pack.directory_bytes().size();
-  for (const RegionEntry& entry : pack.directory().regions) {
+  shares.connectivity = directory.connectivity_bytes;
+  for (const RegionEntry& entry : directory.regions) {
     shares.joins += entry.bundle.size;
-    for (const LevelEntry& level : entry.levels) {
-      ByteReader in(pack.part(level.part));
-      auto header = read_region_header(in);
-      if (!header) return forward_error(header);
-      shares.headers += in.offset();
-      shares.connectivity += header->connectivity_size;
-      shares.attributes += in.left() - header->connectivity_size;
-    }
+    shares.headers += entry.levels.size();
+    for (const LevelEntry& level : entry.levels) shares.attributes += level.part.size - 1;
   }
+  shares.attributes -= std::min(shares.attributes, shares.connectivity);
   return shares;
 }
 
@@ -125,12 +123,11 @@ void print_text(const Pack& pack, const ByteShares& shares) {
 Result<void> run(const InspectCommand& command) {
   auto pack = Pack::open(command.pack);
   if (!pack) return forward_error(pack);
-  auto shares = measure(**pack);
-  if (!shares) return forward_error(shares, command.pack.string());
+  const ByteShares shares = measure(**pack);
   if (command.json) {
-    print_json(**pack, *shares);
+    print_json(**pack, shares);
   } else {
-    print_text(**pack, *shares);
+    print_text(**pack, shares);
   }
   return {};
 }

@@ -1,54 +1,78 @@
 // SPDX-License-Identifier: MIT
 #include "server/encode/attribute_encoder.h"
 
+#include <algorithm>
 #include <cstdlib>
 
-#include "common/codec/region_format.h"
-#include "common/codec/residual.h"
-#include "common/coding/entropy_encoder.h"
+#include "server/encode/blend_choice.h"
 
 namespace selvage {
 namespace {
 
-void encode_residual(EntropyEncoder& out, ResidualModels& models, const ResidualContext& context,
-                     std::int32_t residual) {
-  const auto magnitude = static_cast<std::uint32_t>(std::abs(residual));
-  const std::uint32_t coarse = magnitude >> context.raw_low_bits;
-  out.symbol(models.magnitude[context.index], std::min(coarse, ResidualModels::kEscape));
-  if (coarse >= ResidualModels::kEscape) out.number(models.excess, coarse - ResidualModels::kEscape);
-  out.bits(magnitude & ((1u << context.raw_low_bits) - 1), context.raw_low_bits);
+std::uint32_t magnitude_of(std::int32_t residual) { return static_cast<std::uint32_t>(std::abs(residual)); }
+
+void encode_residual(EntropyEncoder& out, unsigned model, const SizeClass& size, std::int32_t residual) {
+  const std::uint32_t magnitude = magnitude_of(residual);
+  const std::uint32_t coarse = magnitude >> size.raw_low_bits;
+  out.symbol(model, std::min(coarse, kMagnitudeEscape));
+  if (coarse >= kMagnitudeEscape) out.number(region_model::kExcess, coarse - kMagnitudeEscape);
+  const std::uint32_t low = magnitude & ((1u << size.raw_low_bits) - 1);
+  if (coarse == 0 && size.raw_low_bits == 0) return;
+  out.bits(low, size.raw_low_bits);
   if (magnitude != 0) out.bits(residual < 0, 1);
 }
 
-void encode_positions(EntropyEncoder& out, const RegionMesh& mesh, int bits) {
-  ResidualModels models;
-  Predictor predictor(mesh.table, bits);
+// In step with decode_positions.
+void encode_positions(EntropyEncoder& out, const RegionMesh& mesh, const GridBox& box,
+                      const CodecTables& tables) {
+  const Blends blends = choose_blends(mesh, box, tables);
+  out.symbol(region_model::kShape, blends.shape);
+  out.symbol(region_model::kTrend, blends.trend);
+  out.symbol(region_model::kTangent, blends.tangent);
+  Predictor predictor(mesh.table, tables, blends, box.extent());
   for (const GridPoint& position : mesh.positions) {
-    const Prediction prediction = predictor.predict();
-    const GridPoint residual = position - prediction.position;
-    for (int axis = 0; axis < 3; ++axis) encode_residual(out, models, prediction.context, residual[axis]);
-    predictor.append(position, residual);
+    const Surroundings around = predictor.look_around();
+    if (around.neighbours == 0) {
+      for (int axis = 0; axis < 3; ++axis)
+        out.bits(static_cast<std::uint32_t>(position[axis] - box.low[axis]), box.offset_bits(axis));
+      predictor.append_first(position);
+      continue;
+    }
+    const GridPoint residual = position - predictor.predict(around);
+    const unsigned d = around.normal_axis;
+    const auto u = residual[static_cast<int>((d + 1) % 3)], w = residual[static_cast<int>((d + 2) % 3)];
+    const SizeClass first = predictor.size_class(around, 0, predictor.size_features(around, 0, 0, 0));
+    encode_residual(out, magnitude_model(0, around, first), first, u);
+    const SizeClass second =
+        predictor.size_class(around, 1, predictor.size_features(around, magnitude_of(u), 0, 0));
+    encode_residual(out, magnitude_model(1, around, second), second, w);
+    const std::int32_t tangent = predictor.tangent_residual(around, u, w);
+    const std::int32_t last = residual[static_cast<int>(d)] - tangent;
+    const SizeClass third = predictor.size_class(
+        around, 2, predictor.size_features(around, magnitude_of(u), magnitude_of(w), magnitude_of(tangent)));
+    encode_residual(out, magnitude_model(2, around, third), third, last);
+    predictor.append(around, position, magnitude_of(u) + magnitude_of(w), magnitude_of(last));
   }
 }
 
-void encode_turned(EntropyEncoder& out, AttributeModels& models, const std::vector<bool>& is_turned) {
+void encode_turned(EntropyEncoder& out, const std::vector<bool>& is_turned) {
   bool before = false;
   for (bool turned : is_turned) {
-    out.symbol(models.turned[before], turned);
+    out.symbol(region_model::kTurned + before, turned);
     before = turned;
   }
 }
 
-void encode_anchors(EntropyEncoder& out, AttributeModels& models, const RegionMesh& mesh) {
+void encode_anchors(EntropyEncoder& out, const RegionMesh& mesh) {
   std::vector<std::uint32_t> place_of_vertex(mesh.table.vertex_count());
   const std::vector<VertexId> order = anchor_order(mesh.loops, mesh.table.vertex_count());
   for (std::uint32_t place = 0; place < order.size(); ++place) place_of_vertex[order[place]] = place;
-  out.bits(static_cast<std::uint32_t>(mesh.anchors.size()), 32);
+  out.number(region_model::kAnchorCount, static_cast<std::uint32_t>(mesh.anchors.size()));
   std::uint32_t next_place = 0, next_group = 0;
   for (const Anchor& anchor : mesh.anchors) {
     const std::uint32_t place = place_of_vertex[anchor.vertex];
-    out.number(models.anchor_gap, place - next_place);
-    out.number(models.group_step, fold_sign(static_cast<std::int32_t>(anchor.group - next_group)));
+    out.number(region_model::kAnchorGap, place - next_place);
+    out.number(region_model::kGroupStep, fold_sign(static_cast<std::int32_t>(anchor.group - next_group)));
     next_place = place + 1;
     next_group = anchor.group + 1;
   }
@@ -56,14 +80,11 @@ void encode_anchors(EntropyEncoder& out, AttributeModels& models, const RegionMe
 
 }  // namespace
 
-Bytes encode_attributes(const RegionMesh& mesh, int bits) {
-  EntropyEncoder out;
-  AttributeModels models;
-  if (mesh.table.triangle_count() == 0) out.number(models.loose_count, mesh.table.vertex_count());
-  encode_positions(out, mesh, bits);
-  encode_turned(out, models, mesh.is_turned);
-  if (!mesh.anchors.empty()) encode_anchors(out, models, mesh);
-  return out.finish<2>();
+void encode_attributes(const RegionMesh& mesh, const GridBox& box, const CodecTables& tables,
+                       EntropyEncoder& out) {
+  encode_positions(out, mesh, box, tables);
+  encode_turned(out, mesh.is_turned);
+  if (!mesh.anchors.empty()) encode_anchors(out, mesh);
 }
 
 }  // namespace selvage

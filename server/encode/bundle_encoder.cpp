@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "common/coding/entropy_encoder.h"
-
 namespace selvage {
 namespace {
 
@@ -19,7 +17,7 @@ struct HalfEdge {
 class BundleEncoder {
  public:
   BundleEncoder(const BundleTopology& topology, std::span<const BoundaryTriangle> triangles)
-      : topology_(topology), triangles_(triangles), is_coded_(triangles.size(), false) {
+      : topology_(topology), triangles_(triangles), is_coded_(triangles.size(), false), progress_(topology) {
     corners_.reserve(triangles.size());
     for (const BoundaryTriangle& t : triangles) corners_.push_back(to_local(t));
     for (std::uint32_t t = 0; t < corners_.size(); ++t) {
@@ -29,18 +27,17 @@ class BundleEncoder {
     std::sort(half_edges_.begin(), half_edges_.end());
   }
 
-  Bytes run() && {
-    const bool has_turned = std::any_of(triangles_.begin(), triangles_.end(),
-                                        [](const BoundaryTriangle& t) { return t.is_turned; });
-    out_.symbol(models_.has_turned, has_turned);
-    has_turned_ = has_turned;
-    JoinGates gates(topology_);
+  Bytes run(std::span<const StartModel> start, EntropyEncoder* symbols) && {
+    has_turned_ = std::any_of(triangles_.begin(), triangles_.end(),
+                              [](const BoundaryTriangle& t) { return t.is_turned; });
+    out_.symbol(bundle_model::kHasTurned, has_turned_);
+    start_at_own_edges();
     for (std::uint32_t seed = 0; seed < corners_.size(); ++seed) {
-      if (is_coded_[seed]) continue;
-      start_at(seed, gates);
-      for (JoinGate gate; gates.pop(gate);) cross(gate, gates);
+      if (!is_coded_[seed]) start_at_corners(seed);
     }
-    return out_.finish<1>();
+    Bytes bytes = out_.finish<1>(start).bytes;
+    if (symbols != nullptr) *symbols = std::move(out_);
+    return bytes;
   }
 
  private:
@@ -58,52 +55,72 @@ class BundleEncoder {
     return JoinSymbol::Other;
   }
 
-  // A start is a gate in full, then what lies behind it. Any of the three edges will do: best one that a
-  // strip could have come through, with the tip next to it.
-  void start_at(std::uint32_t seed, JoinGates& gates) {
-    Corners corners = corners_[seed];
-    for (int k = 0; k < 3 && symbol_of(corners[1], corners[0], corners[2]) == JoinSymbol::Other; ++k) {
-      std::rotate(corners.begin(), corners.begin() + 1, corners.end());
+  void start_at_own_edges() {
+    const std::uint32_t own = topology_.own_slot();
+    std::uint32_t skipped = 0;
+    for (std::uint32_t i = 0; i < topology_.vertex_count(own); ++i) {
+      const std::uint32_t v = topology_.vertex(own, i);
+      if (progress_.is_covered(v)) continue;
+      const HalfEdge* seed = find_uncoded(topology_.after(v), v);
+      if (seed == nullptr) {
+        ++skipped;
+        continue;
+      }
+      out_.symbol(bundle_model::kStart, static_cast<unsigned>(JoinStart::OwnEdge));
+      out_.number(bundle_model::kStartSkip, skipped);
+      vertex(bundle_model::kSlot, seed->tip);
+      start({topology_.after(v), v, seed->tip}, seed->triangle);
+      skipped = 0;
     }
-    const auto [y, x, z] = corners;
-    vertex(x);
-    vertex(y);
-    const JoinSymbol symbol = symbol_of(x, y, z);
-    out_.symbol(models_.start, static_cast<unsigned>(symbol));
-    if (symbol == JoinSymbol::Other) vertex(z);
-    note(seed);
-    gates.add_triangle(corners, 0);
   }
 
-  void cross(const JoinGate& gate, JoinGates& gates) {
-    const HalfEdge* behind = find_behind(gate);
+  void start_at_corners(std::uint32_t seed) {
+    out_.symbol(bundle_model::kStart, static_cast<unsigned>(JoinStart::Corners));
+    for (std::uint32_t v : corners_[seed]) vertex(bundle_model::kSlot, v);
+    start(corners_[seed], seed);
+  }
+
+  void start(const Corners& corners, std::uint32_t triangle) {
+    note(triangle);
+    progress_.add_start(corners);
+    for (JoinGate gate; progress_.pop(gate);) cross(gate);
+  }
+
+  void cross(const JoinGate& gate) {
+    const HalfEdge* behind = find_uncoded(gate.y, gate.x);
     const JoinSymbol symbol = behind == nullptr ? JoinSymbol::None : symbol_of(gate.x, gate.y, behind->tip);
-    out_.symbol(models_.at(topology_, gate), static_cast<unsigned>(symbol));
+    out_.symbol(progress_.model_of(gate), static_cast<unsigned>(symbol));
     if (behind == nullptr) return;
-    if (symbol == JoinSymbol::Other) vertex(behind->tip);
+    if (symbol == JoinSymbol::Other) vertex(bundle_model::kSlot1, behind->tip);
     note(behind->triangle);
-    gates.add_behind(gate, behind->tip, symbol);
+    progress_.add_behind(gate, behind->tip, symbol);
   }
 
-  /// The uncoded triangle with the edge y -> x.
-  const HalfEdge* find_behind(const JoinGate& gate) const {
-    auto it = std::lower_bound(half_edges_.begin(), half_edges_.end(), HalfEdge{gate.y, gate.x, 0, 0});
-    for (; it != half_edges_.end() && it->tail == gate.y && it->head == gate.x; ++it) {
+  /// An uncoded triangle with the edge tail -> head.
+  const HalfEdge* find_uncoded(std::uint32_t tail, std::uint32_t head) const {
+    auto it = std::lower_bound(half_edges_.begin(), half_edges_.end(), HalfEdge{tail, head, 0, 0});
+    for (; it != half_edges_.end() && it->tail == tail && it->head == head; ++it) {
       if (!is_coded_[it->triangle]) return &*it;
     }
     return nullptr;
   }
 
-  void vertex(std::uint32_t v) {
-    const std::uint32_t slot = topology_.slot_of(v);
-    out_.number(models_.slot, topology_.own_slot() - slot);
-    out_.bits(v - topology_.vertex(slot, 0), index_bits(topology_.vertex_count(slot)));
+  // In step with BundleDecoder::vertex.
+  void vertex(unsigned slot_model, std::uint32_t v) {
+    const std::uint32_t slot = topology_.slot_of(v), count = topology_.vertex_count(slot);
+    out_.number(slot_model, topology_.own_slot() - slot);
+    const std::uint32_t last = progress_.last_touched(slot);
+    if (last == kNone) {
+      out_.bits(v - topology_.vertex(slot, 0), index_bits(count));
+    } else {
+      out_.number(bundle_model::kTipGap, circular_gap(last, v, count));
+    }
   }
 
   void note(std::uint32_t triangle) {
     is_coded_[triangle] = true;
     if (!has_turned_) return;
-    out_.symbol(models_.turned[last_turned_], triangles_[triangle].is_turned);
+    out_.symbol(bundle_model::kTurned + last_turned_, triangles_[triangle].is_turned);
     last_turned_ = triangles_[triangle].is_turned;
   }
 
@@ -114,13 +131,14 @@ class BundleEncoder {
   std::vector<bool> is_coded_;
   bool has_turned_ = false, last_turned_ = false;
   EntropyEncoder out_;
-  JoinModels models_;
+  JoinProgress progress_;
 };
 
 }  // namespace
 
-Bytes encode_bundle(const BundleTopology& topology, std::span<const BoundaryTriangle> triangles) {
-  return BundleEncoder(topology, triangles).run();
+Bytes encode_bundle(const BundleTopology& topology, std::span<const BoundaryTriangle> triangles,
+                    const CodecTables& tables, EntropyEncoder* symbols) {
+  return BundleEncoder(topology, triangles).run(tables.bundle, symbols);
 }
 
 }  // namespace selvage

@@ -8,7 +8,6 @@
 
 #include "common/codec/clers.h"
 #include "common/codec/region_format.h"
-#include "common/coding/entropy_encoder.h"
 #include "common/mesh/boundary_loops.h"
 
 namespace selvage {
@@ -203,11 +202,11 @@ std::vector<HandleSplit> reversed(const std::vector<HandleSplit>& splits, std::u
   return result;
 }
 
-void encode_splits(EntropyEncoder& out, ConnectivityModels& models, const std::vector<HandleSplit>& splits) {
-  out.number(models.counts, static_cast<std::uint32_t>(splits.size()));
+void encode_splits(EntropyEncoder& out, const std::vector<HandleSplit>& splits) {
+  out.number(region_model::kHandleCount, static_cast<std::uint32_t>(splits.size()));
   for (std::uint32_t before = 0; const HandleSplit& s : splits) {
-    out.number(models.handle_gap, s.split - before);
-    out.number(models.handle_reach, s.split - s.source - 1);
+    out.number(region_model::kHandleGap, s.split - before);
+    out.number(region_model::kHandleReach, s.split - s.source - 1);
     out.bits(s.is_left, 1);
     before = s.split;
   }
@@ -215,28 +214,27 @@ void encode_splits(EntropyEncoder& out, ConnectivityModels& models, const std::v
 
 }  // namespace
 
-EncodedConnectivity encode_connectivity(const CornerTable& table) {
+EncodedConnectivity encode_connectivity(const CornerTable& table, EntropyEncoder& out) {
   const ClosedTable closed = close_inner_loops(table, find_components(table));
   const Conquest conquest(closed.table);
   const auto symbols = static_cast<std::uint32_t>(conquest.symbols.size());
 
   // In step with decode_connectivity.
-  EntropyEncoder out;
-  ConnectivityModels models;
-  ClersModels clers_models(ClersGrower::kContexts);
+  out.number(region_model::kExtraSymbols,
+             fold_sign(static_cast<std::int32_t>(symbols - table.triangle_count())));
   const std::vector<HandleSplit> splits = reversed(conquest.splits, symbols);
-  encode_splits(out, models, splits);
-  ClersGrower grower(splits);
+  encode_splits(out, splits);
+  ClersGrower grower(splits, symbols);
   std::vector<CornerId> tip_of_grown(conquest.tips.rbegin(), conquest.tips.rend());
   for (auto symbol = conquest.symbols.rbegin(); symbol != conquest.symbols.rend(); ++symbol) {
-    out.symbol(clers_models[grower.context()], static_cast<unsigned>(*symbol));
+    out.symbol(region_model::kClers + grower.context(), static_cast<unsigned>(*symbol));
     [[maybe_unused]] const bool fits = grower.grow(*symbol);
     assert(fits);
   }
   // Components end up on the gate stack in decoding order, that is last first.
   for (std::uint32_t gate = 0; gate < grower.open_gates(); ++gate) {
     const CornerId closing = conquest.closing_tips[conquest.closing_tips.size() - 1 - gate];
-    out.symbol(models.is_closed, closing != kNone);
+    out.symbol(region_model::kIsClosed, closing != kNone);
     if (closing == kNone) continue;
     [[maybe_unused]] const bool closes = grower.close(gate);
     assert(closes);
@@ -253,18 +251,19 @@ EncodedConnectivity encode_connectivity(const CornerTable& table) {
   std::sort(virtual_vertices.begin(), virtual_vertices.end());
   virtual_vertices.erase(std::unique(virtual_vertices.begin(), virtual_vertices.end()),
                          virtual_vertices.end());
-  out.number(models.counts, static_cast<std::uint32_t>(virtual_vertices.size()));
+  out.number(region_model::kVirtualCount, static_cast<std::uint32_t>(virtual_vertices.size()));
   for (VertexId before = 0; VertexId v : virtual_vertices) {
-    out.number(models.virtual_gap, v - before);
+    out.number(region_model::kVirtualGap, v - before);
     before = v;
   }
 
   auto finished = finish_connectivity(grown, virtual_vertices);
   assert(finished);
-  EncodedConnectivity encoded{out.finish<1>(), symbols, std::move(finished->table), {}};
+  EncodedConnectivity encoded{std::move(finished->table), {}};
   encoded.source_of_corner.reserve(encoded.table.corner_count());
-  for (TriangleId grown_triangle : finished->grown_of_triangle) {
-    const CornerId tip = tip_of_grown[grown_triangle];
+  for (TriangleId t = 0; t < encoded.table.triangle_count(); ++t) {
+    const CornerId tip =
+        tip_of_grown[finished->grown_of_triangle.empty() ? t : finished->grown_of_triangle[t]];
     encoded.source_of_corner.insert(encoded.source_of_corner.end(), {tip, next(tip), prev(tip)});
   }
   return encoded;

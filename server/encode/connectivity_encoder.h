@@ -4,14 +4,12 @@
 #include <vector>
 
 #include "common/codec/connectivity.h"
-#include "common/coding/byte_io.h"
+#include "common/coding/entropy_encoder.h"
 #include "common/mesh/corner_table.h"
 
 namespace selvage {
 
 struct EncodedConnectivity {
-  Bytes bytes;
-  std::uint32_t symbols = 0;
   CornerTable table;                       ///< as the decoder will have it
   std::vector<CornerId> source_of_corner;  ///< corner of the given table, by corner of `table`
 };
@@ -20,6 +18,6 @@ struct EncodedConnectivity {
 /// component is visited before the start and costs nothing; others are closed by virtual vertices; a
 /// component without a loop starts from a triangle; handles become HandleSplits. Mirror:
 /// client/decode/connectivity_decoder.h.
-EncodedConnectivity encode_connectivity(const CornerTable& table);
+EncodedConnectivity encode_connectivity(const CornerTable& table, EntropyEncoder& out);
 
 }  // namespace selvage

@@ -37,8 +37,8 @@ VerticesByRegion group_vertices(const Partition& partition) {
   return grouped;
 }
 
-/// The weld group of every vertex that shares its source with another, kNone for all others; groups are numbered by
-/// first vertex. Empty if there is none.
+/// The weld group of every vertex that shares its source with another, kNone for all others; groups are
+/// numbered by first vertex. Empty if there is none.
 std::vector<std::uint32_t> find_weld_groups(std::span<const VertexId> source_of_vertex) {
   if (source_of_vertex.empty()) return {};
   const VertexId sources = *std::max_element(source_of_vertex.begin(), source_of_vertex.end()) + 1;
@@ -57,7 +57,8 @@ std::vector<std::uint32_t> find_weld_groups(std::span<const VertexId> source_of_
 }
 
 /// The triangles of each region's bundle: those whose highest region it is.
-std::vector<std::vector<TriangleId>> group_boundary_triangles(const CornerTable& table, const Partition& partition) {
+std::vector<std::vector<TriangleId>> group_boundary_triangles(const CornerTable& table,
+                                                              const Partition& partition) {
   std::vector<std::vector<TriangleId>> bundles(partition.region_count + 1);
   for (TriangleId t : partition.boundary_triangles) {
     const auto [a, b, c] = table.triangle(t);
@@ -69,9 +70,10 @@ std::vector<std::vector<TriangleId>> group_boundary_triangles(const CornerTable&
 
 class ModelEncoder {
  public:
-  ModelEncoder(const ModelSource& source, const Grid& grid)
+  ModelEncoder(const ModelSource& source, const Grid& grid, const EncodeHooks& hooks)
       : source_(source),
         grid_(grid),
+        hooks_(hooks),
         by_region_(group_vertices(source.partition)),
         weld_group_(find_weld_groups(source.source_of_vertex)),
         boundary_index_(source.positions.size(), kNone),
@@ -88,9 +90,11 @@ class ModelEncoder {
     std::vector<RegionEntry>& entries = model.directory.regions;
     entries.resize(regions);
     std::vector<Bytes> region_parts(regions), bundle_parts(regions);
+    std::vector<std::size_t> connectivity_sizes(regions, 0);
     parallel(regions, [&](std::size_t i) {
       const auto region = static_cast<RegionId>(i);
-      if (!by_region_.of(region).empty()) region_parts[i] = encode_one(region, entries[i]);
+      if (!by_region_.of(region).empty())
+        region_parts[i] = encode_one(region, entries[i], connectivity_sizes[i]);
       on_part_done();
     });
     // Bundles name boundary vertices by index, so they wait for all regions.
@@ -104,8 +108,11 @@ class ModelEncoder {
       if (!entries[region].levels.empty()) model.parts.push_back(std::move(region_parts[region]));
       if (!bundles[region].empty()) model.parts.push_back(std::move(bundle_parts[region]));
     }
+    model.directory.connectivity_bytes =
+        std::accumulate(connectivity_sizes.begin(), connectivity_sizes.end(), std::uint64_t{0});
     model.directory.grid = grid_;
-    model.directory.boundary_triangles = static_cast<std::uint32_t>(source_.partition.boundary_triangles.size());
+    model.directory.boundary_triangles =
+        static_cast<std::uint32_t>(source_.partition.boundary_triangles.size());
     return model;
   }
 
@@ -140,31 +147,31 @@ class ModelEncoder {
   CornerId local_corner(RegionId region, CornerId across) const {
     if (across == kNone) return kNone;
     const TriangleId local = local_of_triangle_[triangle_of(across)];
-    const bool is_inside = local != kNone && source_.partition.region_of_vertex[source_.table.vertex(across)] == region;
+    const bool is_inside =
+        local != kNone && source_.partition.region_of_vertex[source_.table.vertex(across)] == region;
     return is_inside ? 3 * local + across % 3 : kNone;
   }
 
   /// Writes only what belongs to this region, so regions may run at once.
-  Bytes encode_one(RegionId region, RegionEntry& entry) {
+  Bytes encode_one(RegionId region, RegionEntry& entry, std::size_t& connectivity_size) {
     const RegionSource cut = cut_out(region);
-    EncodedRegion encoded = encode_region(cut, grid_.bits);
+    EntropyEncoder symbols;
+    EncodedRegion encoded = encode_region(cut, hooks_.tables, hooks_.on_symbols ? &symbols : nullptr);
+    if (hooks_.on_symbols) hooks_.on_symbols({PartKind::Region, region}, symbols);
+    connectivity_size = encoded.connectivity_size;
     const auto vertices = by_region_.of(region);
     for (std::uint32_t index = 0; index < encoded.loops.vertices.size(); ++index) {
       boundary_index_[vertices[encoded.source_of_vertex[encoded.loops.vertices[index]]]] = index;
     }
-    entry.box_min = entry.box_max = cut.positions.front();
-    for (const GridPoint& p : cut.positions) {
-      for (int axis = 0; axis < 3; ++axis) {
-        entry.box_min[axis] = std::min(entry.box_min[axis], p[axis]);
-        entry.box_max[axis] = std::max(entry.box_max[axis], p[axis]);
-      }
-    }
+    entry.box_min = encoded.box.low;
+    entry.box_max = encoded.box.high;
     entry.loop_lengths = std::move(encoded.loops.lengths);
     entry.levels.push_back({.vertices = cut.table.vertex_count(), .triangles = cut.table.triangle_count()});
     return std::move(encoded.bytes);
   }
 
-  Bytes encode_joins(RegionId region, std::span<const TriangleId> triangles, std::vector<RegionEntry>& entries) {
+  Bytes encode_joins(RegionId region, std::span<const TriangleId> triangles,
+                     std::vector<RegionEntry>& entries) {
     std::vector<BoundaryTriangle> named;
     std::vector<RegionId> touched = {region};
     for (TriangleId t : triangles) {
@@ -180,7 +187,10 @@ class ModelEncoder {
     touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
     std::vector<BundleTopology::Region> topology;
     for (RegionId id : touched) topology.push_back({id, entries[id].loop_lengths});
-    Bytes bytes = encode_bundle(BundleTopology(std::move(topology)), named);
+    EntropyEncoder symbols;
+    Bytes bytes = encode_bundle(BundleTopology(std::move(topology)), named, hooks_.tables,
+                                hooks_.on_symbols ? &symbols : nullptr);
+    if (hooks_.on_symbols) hooks_.on_symbols({PartKind::Bundle, region}, symbols);
     touched.pop_back();
     entries[region].lower_neighbours = std::move(touched);
     return bytes;
@@ -188,6 +198,7 @@ class ModelEncoder {
 
   const ModelSource& source_;
   const Grid& grid_;
+  const EncodeHooks& hooks_;
   VerticesByRegion by_region_;
   std::vector<std::uint32_t> weld_group_;      ///< by vertex; empty if nothing is welded
   std::vector<std::uint32_t> boundary_index_;  ///< by vertex; kNone inside a region
@@ -197,8 +208,8 @@ class ModelEncoder {
 }  // namespace
 
 EncodedModel encode_model(const ModelSource& source, const Grid& grid, const ParallelFor& parallel,
-                          const std::function<void()>& on_part_done) {
-  return ModelEncoder(source, grid).run(parallel, on_part_done);
+                          const std::function<void()>& on_part_done, const EncodeHooks& hooks) {
+  return ModelEncoder(source, grid, hooks).run(parallel, on_part_done);
 }
 
 }  // namespace selvage

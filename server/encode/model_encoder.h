@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "common/base/parallel.h"
+#include "common/codec/codec_tables.h"
 #include "common/coding/byte_io.h"
+#include "common/coding/entropy_encoder.h"
 #include "common/mesh/corner_table.h"
 #include "common/mesh/grid.h"
 #include "common/pack/directory.h"
@@ -18,21 +20,29 @@ namespace selvage {
 
 /// Borrowed for the call.
 struct ModelSource {
-  const CornerTable& table;                    ///< oriented 2-manifold with boundary
-  std::span<const Vec3> positions;             ///< by vertex
-  std::span<const VertexId> source_of_vertex;  ///< vertices with the same source are welded again by the client
-  const std::vector<bool>& is_turned;          ///< by triangle
-  const Partition& partition;                  ///< passes check_partition
+  const CornerTable& table;         ///< oriented 2-manifold with boundary
+  std::span<const Vec3> positions;  ///< by vertex
+  std::span<const VertexId>
+      source_of_vertex;                ///< vertices with the same source are welded again by the client
+  const std::vector<bool>& is_turned;  ///< by triangle
+  const Partition& partition;          ///< passes check_partition
 };
 
 struct EncodedModel {
-  Directory directory;       ///< grid, counts and regions; part sizes and hashes still open, see assemble_pack
+  Directory directory;  ///< grid, counts and regions; part sizes and hashes still open, see assemble_pack
   std::vector<Bytes> parts;  ///< in assemble_pack's order
 };
 
-/// `on_part_done` is called after each part, possibly from several threads at once. The result does not depend on
-/// `parallel`.
+/// For training and benchmarks: other tables, and every part's symbols as they were coded. `on_symbols` may
+/// be called from several threads at once.
+struct EncodeHooks {
+  const CodecTables& tables = shipped_tables();
+  std::function<void(const PartId&, const EntropyEncoder&)> on_symbols = nullptr;
+};
+
+/// `on_part_done` is called after each part, possibly from several threads at once. The result does not
+/// depend on `parallel`.
 EncodedModel encode_model(const ModelSource& source, const Grid& grid, const ParallelFor& parallel,
-                          const std::function<void()>& on_part_done);
+                          const std::function<void()>& on_part_done, const EncodeHooks& hooks = {});
 
 }  // namespace selvage

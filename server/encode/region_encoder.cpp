@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 
 #include "common/codec/region_format.h"
 #include "server/encode/attribute_encoder.h"
@@ -47,38 +48,49 @@ std::vector<Anchor> map_anchors(const RegionMesh& mesh, const std::vector<Vertex
   return anchors;
 }
 
+GridBox box_of(std::span<const GridPoint> positions) {
+  GridBox box{positions.front(), positions.front()};
+  for (const GridPoint& p : positions) {
+    for (int axis = 0; axis < 3; ++axis) {
+      box.low[axis] = std::min(box.low[axis], p[axis]);
+      box.high[axis] = std::max(box.high[axis], p[axis]);
+    }
+  }
+  return box;
+}
+
 }  // namespace
 
-EncodedRegion encode_region(const RegionSource& source, int bits) {
+EncodedRegion encode_region(const RegionSource& source, const CodecTables& tables, EntropyEncoder* symbols) {
   EncodedRegion encoded;
+  encoded.box = box_of(source.positions);
+  EntropyEncoder out;
   RegionMesh mesh;
-  EncodedConnectivity connectivity;
   if (source.table.triangle_count() > 0) {
-    connectivity = encode_connectivity(source.table);
-    mesh.table = connectivity.table;
-    mesh.loops = find_boundary_loops(mesh.table);
+    EncodedConnectivity connectivity = encode_connectivity(source.table, out);
+    mesh.loops = find_boundary_loops(connectivity.table);
     encoded.source_of_vertex = map_vertices(connectivity, source.table);
     mesh.is_turned = map_turned(connectivity, source.is_turned);
+    mesh.table = std::move(connectivity.table);
   } else {
     mesh.table = source.table;
     mesh.loops = loose_loops(source.table.vertex_count());
     encoded.source_of_vertex = mesh.loops.vertices;
+    out.number(region_model::kLooseCount, source.table.vertex_count());
   }
+  out.mark();
   for (VertexId v : encoded.source_of_vertex) mesh.positions.push_back(source.positions[v]);
   mesh.anchors = map_anchors(mesh, encoded.source_of_vertex, source.weld_groups);
+  encode_attributes(mesh, encoded.box, tables, out);
 
-  ByteWriter out;
-  write_region_header(out, {.has_turned = !mesh.is_turned.empty(),
-                            .has_anchors = !mesh.anchors.empty(),
-                            .bits = bits,
-                            .symbols = connectivity.symbols,
-                            .connectivity_size = static_cast<std::uint32_t>(connectivity.bytes.size())});
-  encoded.header_size = out.size();
-  encoded.connectivity_size = connectivity.bytes.size();
-  out.append(connectivity.bytes);
-  out.append(encode_attributes(mesh, bits));
-  encoded.bytes = std::move(out).take();
+  ByteWriter part;
+  write_region_header(part, {.has_turned = !mesh.is_turned.empty(), .has_anchors = !mesh.anchors.empty()});
+  const EntropyEncoder::Coded coded = out.finish<2>(tables.region);
+  part.append(coded.bytes);
+  encoded.connectivity_size = coded.bytes_to_mark;
+  encoded.bytes = std::move(part).take();
   encoded.loops = std::move(mesh.loops);
+  if (symbols != nullptr) *symbols = std::move(out);
   return encoded;
 }
 

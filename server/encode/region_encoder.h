@@ -6,8 +6,10 @@
 
 #include <vector>
 
+#include "common/codec/region_format.h"
 #include "common/codec/region_mesh.h"
 #include "common/coding/byte_io.h"
+#include "common/coding/entropy_encoder.h"
 #include "common/mesh/grid.h"
 
 namespace selvage {
@@ -22,13 +24,15 @@ struct RegionSource {
 
 struct EncodedRegion {
   Bytes bytes;
+  GridBox box;                             ///< of all positions; the decoder needs it
   std::vector<VertexId> source_of_vertex;  ///< local vertex, by the decoder's vertex number
   BoundaryLoops loops;                ///< in the decoder's numbers: what (region, boundary index) counts in
-  std::size_t connectivity_size = 0;  ///< bytes of the part that are connectivity; ...
-  std::size_t header_size = 0;        ///< ... and header; the rest is positions, turned bits and anchors
+  std::size_t connectivity_size = 0;  ///< bytes of the part, give or take a few
 };
 
-/// Coordinates must be within [0, 2^bits). A source without triangles is the loose pseudo-region.
-EncodedRegion encode_region(const RegionSource& source, int bits);
+/// Coordinates must be within [0, 2^24). A source without triangles is the loose pseudo-region. Only training
+/// and benchmarks pass tables of their own, and ask for the symbols that the part was coded from.
+EncodedRegion encode_region(const RegionSource& source, const CodecTables& tables = shipped_tables(),
+                            EntropyEncoder* symbols = nullptr);
 
 }  // namespace selvage

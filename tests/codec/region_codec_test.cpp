@@ -32,7 +32,15 @@ RegionSource source_of(const RandomManifold& mesh, std::uint32_t seed = 0) {
 }
 
 DecodeLimits limits_of(const RegionSource& source) {
-  return {source.table.vertex_count(), source.table.triangle_count()};
+  DecodeLimits limits{source.table.vertex_count(), source.table.triangle_count(), source.positions[0],
+                      source.positions[0]};
+  for (const GridPoint& p : source.positions) {
+    for (int axis = 0; axis < 3; ++axis) {
+      limits.box_min[axis] = std::min(limits.box_min[axis], p[axis]);
+      limits.box_max[axis] = std::max(limits.box_max[axis], p[axis]);
+    }
+  }
+  return limits;
 }
 
 /// A triangle as source vertices and whether it is turned, starting at its lowest vertex.
@@ -56,7 +64,7 @@ std::size_t open_edges(const CornerTable& table) {
 }
 
 void expect_round_trip(const RegionSource& source) {
-  const EncodedRegion encoded = encode_region(source, kBits);
+  const EncodedRegion encoded = encode_region(source);
   const auto decoded = decode_region(encoded.bytes, limits_of(source));
   ASSERT_TRUE(decoded) << decoded.error().message;
   const auto sound = check_corner_table(decoded->table);
@@ -119,12 +127,12 @@ TEST(RegionCodec, RoundTripsLooseVertices) {
 
 TEST(RegionCodec, IsAPureFunctionOfItsInput) {
   const RegionSource source = source_of(random_manifold(42), 43);
-  EXPECT_EQ(encode_region(source, kBits).bytes, encode_region(source, kBits).bytes);
+  EXPECT_EQ(encode_region(source).bytes, encode_region(source).bytes);
 }
 
 TEST(RegionCodec, RefusesEveryTruncationAndExtraBytes) {
   const RegionSource source = source_of(random_manifold(7), 7);
-  const Bytes bytes = encode_region(source, kBits).bytes;
+  const Bytes bytes = encode_region(source).bytes;
   for (std::size_t length = 0; length < bytes.size(); ++length) {
     const Bytes truncated(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(length));
     EXPECT_FALSE(decode_region(truncated, limits_of(source))) << length;
@@ -137,7 +145,7 @@ TEST(RegionCodec, RefusesEveryTruncationAndExtraBytes) {
 TEST(RegionCodec, SurvivesEveryFlippedBit) {
   for (std::uint32_t seed : {1u, 7u, 11u}) {
     const RegionSource source = source_of(random_manifold(seed), seed);
-    const Bytes bytes = encode_region(source, kBits).bytes;
+    const Bytes bytes = encode_region(source).bytes;
     for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
       Bytes damaged = bytes;
       damaged[bit / 8] ^= static_cast<std::byte>(1u << (bit % 8));
@@ -152,7 +160,7 @@ TEST(RegionCodec, SurvivesEveryFlippedBit) {
 
 TEST(RegionCodec, RefusesMoreThanTheDirectoryPromises) {
   const RegionSource source = source_of(random_manifold(5));
-  const Bytes bytes = encode_region(source, kBits).bytes;
+  const Bytes bytes = encode_region(source).bytes;
   DecodeLimits less = limits_of(source);
   --less.triangles;
   EXPECT_EQ(decode_region(bytes, less).error().code, ErrorCode::BadStream);

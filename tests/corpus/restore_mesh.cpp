@@ -33,9 +33,9 @@ class Fetcher {
   /// Fetches what the selection needs and is not here yet.
   Result<void> fetch(const Selection& selection) {
     GetRequest request{manifest_, selection, {}};
-    for (const auto& [id, bytes] : held_) request.have.push_back(directory().find(id)->hash);
+    for (const auto& [hash, bytes] : held_) request.have.push_back(hash);
     auto stats = client_.get(request, [&](ReceivedPart part) -> Result<void> {
-      held_[part.id] = part.bytes;
+      held_[directory().find(part.id)->hash] = std::move(part.bytes);
       return {};
     });
     if (!stats) return forward_error(stats);
@@ -49,7 +49,7 @@ class Fetcher {
     std::shuffle(parts->begin(), parts->end(), random);
     PartCollector collector(directory());
     for (const PartId& id : *parts) {
-      const auto held = held_.find(id);
+      const auto held = held_.find(directory().find(id)->hash);
       if (held == held_.end()) return fail(ErrorCode::BadStream, "a part that was asked for did not come");
       if (auto ok = collector.add(id, held->second); !ok) return forward_error(ok);
     }
@@ -61,7 +61,7 @@ class Fetcher {
  private:
   BlockingClient& client_;
   std::shared_ptr<const Manifest> manifest_;
-  std::map<PartId, std::vector<std::byte>> held_;
+  std::map<Hash, std::vector<std::byte>> held_;  ///< two parts of equal bytes have one hash and come once
 };
 
 /// The triangles that lie within a set of regions, loose vertices included, counted straight from the pack.

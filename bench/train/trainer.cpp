@@ -1,0 +1,379 @@
+// SPDX-License-Identifier: MIT
+#include "bench/train/trainer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+
+#include "client/decode/region_decoder.h"
+#include "common/codec/predictor.h"
+#include "common/codec/region_format.h"
+#include "server/encode/attribute_encoder.h"
+#include "server/encode/model_encoder.h"
+
+namespace selvage::bench {
+namespace {
+
+using Sequence = std::vector<Token>;
+
+/// A region as the decoder sees it, and the symbols of its connectivity.
+struct TrainingRegion {
+  RegionMesh mesh;
+  GridBox box;
+  Sequence connectivity;
+};
+
+struct TrainingSet {
+  std::vector<TrainingRegion> regions;
+  std::vector<Sequence> bundles;
+};
+
+bool is_connectivity(const Token& token) {
+  return token.model < region_model::kMagnitude ||
+         (token.model >= region_model::kExtraSymbols && token.model <= region_model::kIsClosed);
+}
+
+/// Every model at two of the four usual numbers of bits and three of five sizes of region, in turn.
+TrainingSet make_training_set(const std::vector<const Model*>& models) {
+  constexpr int kBits[] = {12, 14, 11, 16};
+  constexpr std::uint32_t kSizes[] = {2000, 500, 5000, 1000, 20000};
+  TrainingSet set;
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    const RepairedMesh& mesh = models[i]->mesh;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Partition partition = voronoi_partition(mesh, kSizes[(i + k) % 5]);
+      const Grid grid = make_grid(mesh.positions, kBits[(i + k) % 4]);
+      const ModelSource source{mesh.table, mesh.positions, mesh.source_of_vertex, mesh.is_turned, partition};
+      std::vector<Sequence> connectivity(partition.region_count + 1);
+      const CodecTables& tables = shipped_tables();
+      const EncodeHooks hooks{tables, [&](const PartId& id, const EntropyEncoder& symbols) {
+                                const auto tokens = symbols.tokens();
+                                if (id.kind == PartKind::Bundle) {
+                                  set.bundles.emplace_back(tokens.begin(), tokens.end());
+                                } else {
+                                  std::copy_if(tokens.begin(), tokens.end(),
+                                               std::back_inserter(connectivity[id.region]), is_connectivity);
+                                }
+                              }};
+      const EncodedModel encoded = encode_model(
+          source, grid, serial_for(), [] {}, hooks);
+      auto part = encoded.parts.begin();
+      for (RegionId id = 0; id <= partition.region_count; ++id) {
+        const RegionEntry& entry = encoded.directory.regions[id];
+        for (const LevelEntry& level : entry.levels) {
+          auto region =
+              decode_region(*part++, {level.vertices, level.triangles, entry.box_min, entry.box_max}, tables);
+          if (!region)
+            std::fprintf(stderr, "%s: %s\n", models[i]->name.c_str(), region.error().message.c_str()),
+                std::abort();
+          set.regions.push_back(
+              {std::move(*region), {entry.box_min, entry.box_max}, std::move(connectivity[id])});
+        }
+        if (entry.bundle_triangles > 0) ++part;
+      }
+    }
+  }
+  return set;
+}
+
+/// Weighted least squares by normal equations; a little of the identity keeps unseen directions at zero.
+template <std::size_t N>
+class LeastSquares {
+ public:
+  void add(const std::array<double, N>& x, double y, double weight) {
+    for (std::size_t i = 0; i < N; ++i) {
+      for (std::size_t j = 0; j < N; ++j) a_[i][j] += weight * x[i] * x[j];
+      a_[i][N] += weight * x[i] * y;
+    }
+    total_ += weight;
+  }
+
+  std::array<double, N> solve(double ridge) const {
+    auto a = a_;
+    for (std::size_t i = 0; i < N; ++i) a[i][i] += ridge;
+    for (std::size_t i = 0; i < N; ++i) {
+      for (std::size_t r = 0; r < N; ++r) {
+        if (r == i) continue;
+        const double factor = a[r][i] / a[i][i];
+        for (std::size_t c = i; c <= N; ++c) a[r][c] -= factor * a[i][c];
+      }
+    }
+    std::array<double, N> x;
+    for (std::size_t i = 0; i < N; ++i) x[i] = a[i][N] / a[i][i];
+    return x;
+  }
+
+  double total() const { return total_; }
+
+ private:
+  std::array<std::array<double, N + 1>, N> a_{};
+  double total_ = 0;
+};
+
+std::int16_t fixed(double value, double scale) {
+  return static_cast<std::int16_t>(std::lround(std::clamp(value * scale, -16000.0, 16000.0)));
+}
+
+/// Calls visit(predictor, surroundings, position) for every vertex that something predicts; `visit` appends.
+void for_each_vertex(const TrainingRegion& region, const CodecTables& tables, const Blends& blends,
+                     const std::function<void(Predictor&, const Surroundings&, const GridPoint&)>& visit) {
+  Predictor predictor(region.mesh.table, tables, blends, region.box.extent());
+  for (const GridPoint& position : region.mesh.positions) {
+    const Surroundings around = predictor.look_around();
+    if (around.neighbours == 0) {
+      predictor.append_first(position);
+    } else {
+      visit(predictor, around, position);
+    }
+  }
+}
+
+/// Errors count in units of what is to be expected there (the errors nearby), else coarse meshes decide all.
+std::array<ShapeWeights, kShapeClasses> fit_shape(const TrainingSet& set, const CodecTables& start) {
+  std::array<LeastSquares<3>, kShapeClasses> fits;
+  {
+    for (const TrainingRegion& region : set.regions) {
+      for_each_vertex(
+          region, start, {},
+          [&](Predictor& predictor, const Surroundings& around, const GridPoint& position) {
+            double error = 0;
+            if (around.parallelograms > 0) {
+              // At least a 32nd of the reach: where all is flat and regular, one outlier would decide
+              // everything.
+              const double expected =
+                  std::exp2(std::max({around.sizes[0], around.sizes[2], around.sizes[3] - 40}) / 8.0) / 4;
+              for (int axis = 0; axis < 3; ++axis) {
+                const double parallelogram = (around.edge[axis] + around.beyond[axis]) / 16.0;
+                const double y = position[axis] - around.base[axis] - parallelogram;
+                error += std::abs(y);
+                fits[around.shape_class].add(
+                    {around.beyond[axis] / 16.0, around.ring[axis] / 16.0, around.trend[axis] / 16.0}, y,
+                    1 / ((expected + 1) * (expected + std::abs(y) + 1)));
+              }
+            }
+            predictor.append(around, position, static_cast<std::uint32_t>(error),
+                             static_cast<std::uint32_t>(error / 2));
+          });
+    }
+  }
+  std::array<ShapeWeights, kShapeClasses> weights;
+  for (unsigned i = 0; i < kShapeClasses; ++i) {
+    const auto w = fits[i].solve(300);
+    weights[i] = {fixed(w[0], 1024), fixed(w[1], 1024), fixed(w[2], 1024)};
+  }
+  return weights;
+}
+
+std::uint32_t magnitude_of(std::int32_t residual) { return static_cast<std::uint32_t>(std::abs(residual)); }
+
+std::array<std::array<SizeWeights, 3>, kSizeClasses> fit_size(const TrainingSet& set,
+                                                              const CodecTables& start) {
+  std::array<std::array<LeastSquares<kSizeFeatures>, 3>, kSizeClasses> fits;
+  const auto learn = [&](unsigned size_class, unsigned axis,
+                         const std::array<std::int32_t, kSizeFeatures>& features, std::uint32_t magnitude) {
+    std::array<double, kSizeFeatures> x;
+    std::copy(features.begin(), features.end(), x.begin());
+    fits[size_class][axis].add(x, 8 * std::log2(4.0 * magnitude + 2), 1);
+  };
+  for (const TrainingRegion& region : set.regions) {
+    for_each_vertex(
+        region, start, {}, [&](Predictor& predictor, const Surroundings& around, const GridPoint& position) {
+          const GridPoint residual = position - predictor.predict(around);
+          const unsigned d = around.normal_axis;
+          const std::int32_t u = residual[static_cast<int>((d + 1) % 3)],
+                             w = residual[static_cast<int>((d + 2) % 3)];
+          const std::int32_t tangent = predictor.tangent_residual(around, u, w);
+          const std::int32_t last = residual[static_cast<int>(d)] - tangent;
+          learn(around.size_class, 0, predictor.size_features(around, 0, 0, 0), magnitude_of(u));
+          learn(around.size_class, 1, predictor.size_features(around, magnitude_of(u), 0, 0),
+                magnitude_of(w));
+          learn(around.size_class, 2,
+                predictor.size_features(around, magnitude_of(u), magnitude_of(w), magnitude_of(tangent)),
+                magnitude_of(last));
+          predictor.append(around, position, magnitude_of(u) + magnitude_of(w), magnitude_of(last));
+        });
+  }
+  std::array<std::array<SizeWeights, 3>, kSizeClasses> weights;
+  for (unsigned c = 0; c < kSizeClasses; ++c) {
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      const auto w = fits[c][axis].solve(100);
+      for (unsigned i = 0; i < kSizeFeatures; ++i) weights[c][axis][i] = fixed(w[i], 256);
+    }
+  }
+  return weights;
+}
+
+/// One model's symbols, part by part.
+struct History {
+  std::vector<std::uint8_t> symbols;
+  std::vector<std::uint32_t> begins;  ///< of each part that uses the model
+};
+
+/// -log2 of a frequency.
+const std::vector<float>& cost_of_frequency() {
+  static const std::vector<float> costs = [] {
+    std::vector<float> all(kProbabilityOne + 1);
+    for (std::uint32_t f = 1; f <= kProbabilityOne; ++f)
+      all[f] = static_cast<float>(kProbabilityBits - std::log2(static_cast<double>(f)));
+    return all;
+  }();
+  return costs;
+}
+
+double adaptive_cost(const History& history, const StartModel& start) {
+  double cost = 0;
+  for (std::size_t i = 0; i < history.begins.size(); ++i) {
+    SymbolModels model(std::span(&start, 1));
+    const std::size_t end = i + 1 < history.begins.size() ? history.begins[i + 1] : history.symbols.size();
+    for (std::size_t at = history.begins[i]; at < end; ++at) {
+      cost += cost_of_frequency()[model.range(0, history.symbols[at]).frequency];
+      model.update(0, history.symbols[at]);
+    }
+  }
+  return cost;
+}
+
+/// Start levels from counts in which a part that uses the model often counts little more than one that uses
+/// it seldom; then the confidence and the last rate that code the training parts in the fewest bits.
+PackedModel fit_model(const History& history, unsigned used_symbols) {
+  std::array<double, kSymbols> counts;
+  for (unsigned s = 0; s < kSymbols; ++s) counts[s] = s < used_symbols ? 0.02 : 1e-9;
+  double total = 0;
+  for (std::size_t i = 0; i < history.begins.size(); ++i) {
+    const std::size_t end = i + 1 < history.begins.size() ? history.begins[i + 1] : history.symbols.size();
+    const auto length = static_cast<double>(end - history.begins[i]);
+    const double weight = std::min(1.0, 64 / length);
+    for (std::size_t at = history.begins[i]; at < end; ++at) counts[history.symbols[at]] += weight;
+    total += weight * length;
+  }
+  PackedModel model{};
+  for (unsigned s = 0; s < kSymbols; ++s)
+    model.levels[s] = static_cast<std::uint8_t>(
+        std::clamp(std::lround(-12 * std::log2(counts[s] / (total + 1))), 0L, 255L));
+  double least = 1e300;
+  PackedModel best = model;
+  for (int limit : {31, 63, 127, 255}) {
+    for (int uses : {4, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 255}) {
+      if (uses > limit) continue;
+      model.uses = static_cast<std::uint8_t>(uses);
+      model.uses_limit = static_cast<std::uint8_t>(limit);
+      const double cost = adaptive_cost(history, unpack(model));
+      if (cost < least) least = cost, best = model;
+    }
+  }
+  return best;
+}
+
+struct FittedBank {
+  std::vector<PackedModel> packed;
+  std::vector<bool> is_seen;
+  std::vector<StartModel> start;
+};
+
+FittedBank fit_bank(const std::vector<Sequence>& parts, unsigned models,
+                    const std::function<unsigned(unsigned)>& used_symbols) {
+  std::vector<History> histories(models);
+  std::vector<std::size_t> last_part(models, parts.size());
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    for (const Token& token : parts[part]) {
+      History& history = histories[token.model];
+      if (last_part[token.model] != part)
+        history.begins.push_back(static_cast<std::uint32_t>(history.symbols.size()));
+      last_part[token.model] = part;
+      history.symbols.push_back(static_cast<std::uint8_t>(token.symbol));
+    }
+  }
+  FittedBank bank;
+  for (unsigned m = 0; m < models; ++m) {
+    const bool is_seen = !histories[m].symbols.empty();
+    bank.is_seen.push_back(is_seen);
+    bank.packed.push_back(is_seen ? fit_model(histories[m], used_symbols(m)) : PackedModel{});
+    bank.start.push_back(is_seen ? unpack(bank.packed.back()) : fresh_model());
+  }
+  return bank;
+}
+
+unsigned region_symbols(unsigned model) {
+  if (model < region_model::kMagnitude) return 5;
+  if (model == region_model::kIsClosed || model == region_model::kTurned || model == region_model::kTurned1)
+    return 2;
+  return kSymbols;
+}
+
+unsigned bundle_symbols(unsigned model) { return model < bundle_model::kStart ? 4 : kSymbols; }
+
+}  // namespace
+
+TrainedTables train(const std::vector<const Model*>& models) {
+  const TrainingSet set = make_training_set(models);
+  TrainedTables tables;
+  tables.region.assign(region_model::kCount, fresh_model());
+  tables.shape = {};
+  tables.size = shipped_tables().size;
+  tables.shape = fit_shape(set, tables.view());
+  tables.size = fit_size(set, tables.view());
+
+  std::vector<Sequence> parts;
+  for (const TrainingRegion& region : set.regions) {
+    EntropyEncoder out;
+    encode_attributes(region.mesh, region.box, tables.view(), out);
+    Sequence sequence = region.connectivity;
+    sequence.insert(sequence.end(), out.tokens().begin(), out.tokens().end());
+    parts.push_back(std::move(sequence));
+  }
+  FittedBank region = fit_bank(parts, region_model::kCount, region_symbols);
+  FittedBank bundle = fit_bank(set.bundles, bundle_model::kCount, bundle_symbols);
+  tables.packed_region = std::move(region.packed), tables.region_is_seen = std::move(region.is_seen);
+  tables.region = std::move(region.start);
+  tables.packed_bundle = std::move(bundle.packed), tables.bundle_is_seen = std::move(bundle.is_seen);
+  tables.bundle = std::move(bundle.start);
+  return tables;
+}
+
+namespace {
+
+void append_models(std::string& out, const char* name, const char* count,
+                   const std::vector<PackedModel>& models, const std::vector<bool>& is_seen) {
+  char text[64];
+  out += std::string("constexpr std::array<std::string_view, ") + count + "> " + name + "{\n";
+  for (std::size_t m = 0; m < models.size(); ++m) {
+    out += m % 3 == 0 ? "    \"" : " \"";
+    if (is_seen[m]) {
+      for (std::uint8_t level : models[m].levels)
+        std::snprintf(text, sizeof text, "%02x", level), out += text;
+      std::snprintf(text, sizeof text, "%02x%02x", models[m].uses, models[m].uses_limit), out += text;
+    }
+    out += m % 3 == 2 ? "\",\n" : "\",";
+  }
+  out += "};\n";
+}
+
+}  // namespace
+
+std::string to_source(const TrainedTables& tables) {
+  std::string out =
+      "// Made by bench/train; see docs/FORMAT.md, \"Tables\". Do not edit: a change of any number is a "
+      "change of format.\n";
+  append_models(out, "kRegionModels", "region_model::kCount", tables.packed_region, tables.region_is_seen);
+  append_models(out, "kBundleModels", "bundle_model::kCount", tables.packed_bundle, tables.bundle_is_seen);
+  char text[64];
+  out += "constexpr std::array<ShapeWeights, kShapeClasses> kShapeWeights{{\n";
+  for (const ShapeWeights& w : tables.shape)
+    std::snprintf(text, sizeof text, "    {%d, %d, %d},\n", w.beyond, w.ring, w.trend), out += text;
+  out += "}};\nconstexpr std::array<std::array<SizeWeights, 3>, kSizeClasses> kSizeWeights{{\n";
+  for (const auto& axes : tables.size) {
+    out += "    {{";
+    for (const SizeWeights& weights : axes) {
+      out += "{";
+      for (std::int16_t w : weights) std::snprintf(text, sizeof text, "%d, ", w), out += text;
+      out += "},";
+    }
+    out += "}},\n";
+  }
+  out += "}};\n";
+  return out;
+}
+
+}  // namespace selvage::bench

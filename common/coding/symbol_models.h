@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+//
+// Adaptive distributions that encoder and decoder keep in step: both start from the same tables and update
+// them with the same integer arithmetic after every symbol.
+//
+// All models of a stream have 16 symbols, whatever they need, and lie side by side: one layout, one loop, and
+// a start state that is copied in one go. An unused symbol costs 2^-15 of the range.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+namespace selvage {
+
+inline constexpr unsigned kSymbols = 16;
+/// Probabilities are multiples of 2^-15.
+inline constexpr int kProbabilityBits = 15;
+inline constexpr std::uint32_t kProbabilityOne = 1u << kProbabilityBits;
+
+/// A symbol's share of [0, kProbabilityOne).
+struct SymbolRange {
+  std::uint32_t start = 0;
+  std::uint32_t frequency = 0;
+};
+
+/// How a model begins. `cumulative[s]` is where symbol s starts, strictly rising from 0 and below 2^15.
+/// `uses` is the number of symbols that this start is worth: the first update moves by 2^-bit_width(uses).
+/// `uses_limit` is where counting stops, so the last rate is 2^-bit_width(uses_limit).
+struct StartModel {
+  std::uint16_t cumulative[kSymbols];
+  std::uint8_t uses;
+  std::uint8_t uses_limit;
+};
+
+/// Equally likely symbols and quick to learn.
+StartModel fresh_model();
+
+class SymbolModels {
+ public:
+  explicit SymbolModels(std::span<const StartModel> start);
+
+  std::size_t size() const { return rates_.size(); }
+
+  SymbolRange range(unsigned model, unsigned symbol) const {
+    const std::uint16_t* c = &cumulative_[model * kSymbols + symbol];
+    // Behind the last symbol lies the next model's first entry, 0, which stands for 2^15 modulo 2^15.
+    return {c[0], static_cast<std::uint32_t>(c[1] - c[0]) & (kProbabilityOne - 1)};
+  }
+
+  /// The symbol whose range holds `slot` < kProbabilityOne.
+  unsigned find(unsigned model, std::uint32_t slot) const;
+
+  /// Moves the model towards `symbol`.
+  void update(unsigned model, unsigned symbol);
+
+ private:
+  struct Rate {
+    std::uint8_t uses, uses_limit;
+  };
+
+  std::vector<std::uint16_t> cumulative_;  ///< kSymbols a model, and one 0 behind the last
+  std::vector<Rate> rates_;
+};
+
+/// Where a model moves to when a symbol was seen: all but one unit an entry of probability on that symbol.
+/// Targets rise by at least 1 from entry to entry; so x + ((t - x + half) >> shift) keeps entries strictly
+/// rising.
+struct ModelTargets {
+  alignas(32) std::int16_t of_symbol[kSymbols][kSymbols];
+};
+consteval ModelTargets make_model_targets() {
+  ModelTargets targets{};
+  for (unsigned symbol = 0; symbol < kSymbols; ++symbol) {
+    for (unsigned i = 0; i < kSymbols; ++i)
+      targets.of_symbol[symbol][i] =
+          static_cast<std::int16_t>(i <= symbol ? i : kProbabilityOne - kSymbols + i);
+  }
+  return targets;
+}
+inline constexpr ModelTargets kModelTargets = make_model_targets();
+
+#if defined(__SSE2__)
+
+inline unsigned SymbolModels::find(unsigned model, std::uint32_t slot) const {
+  const auto* c = reinterpret_cast<const __m128i*>(&cumulative_[model * kSymbols]);
+  const __m128i at = _mm_set1_epi16(static_cast<short>(slot));
+  const __m128i low = _mm_cmpgt_epi16(_mm_loadu_si128(c), at);
+  const __m128i high = _mm_cmpgt_epi16(_mm_loadu_si128(c + 1), at);
+  const auto above = static_cast<unsigned>(_mm_movemask_epi8(_mm_packs_epi16(low, high)));
+  return static_cast<unsigned>(std::countr_zero(above | 1u << kSymbols)) - 1;
+}
+
+inline void SymbolModels::update(unsigned model, unsigned symbol) {
+  Rate& rate = rates_[model];
+  const int shift = std::bit_width(rate.uses);
+  auto* c = reinterpret_cast<__m128i*>(&cumulative_[model * kSymbols]);
+  const auto* target = reinterpret_cast<const __m128i*>(kModelTargets.of_symbol[symbol]);
+  const __m128i half = _mm_set1_epi16(static_cast<short>(1 << (shift - 1)));
+  const __m128i count = _mm_cvtsi32_si128(shift);
+  for (int i = 0; i < 2; ++i) {
+    const __m128i old = _mm_loadu_si128(c + i);
+    const __m128i step = _mm_adds_epi16(_mm_sub_epi16(_mm_load_si128(target + i), old), half);
+    _mm_storeu_si128(c + i, _mm_add_epi16(old, _mm_sra_epi16(step, count)));
+  }
+  rate.uses = static_cast<std::uint8_t>(rate.uses + (rate.uses < rate.uses_limit));
+}
+
+#else
+
+inline unsigned SymbolModels::find(unsigned model, std::uint32_t slot) const {
+  const std::uint16_t* c = &cumulative_[model * kSymbols];
+  unsigned symbol = 0;
+  for (unsigned i = 1; i < kSymbols; ++i) symbol += c[i] <= slot;
+  return symbol;
+}
+
+inline void SymbolModels::update(unsigned model, unsigned symbol) {
+  Rate& rate = rates_[model];
+  const int shift = std::bit_width(rate.uses);
+  std::uint16_t* c = &cumulative_[model * kSymbols];
+  for (unsigned i = 0; i < kSymbols; ++i) {
+    // Saturated at 16 bits signed, as SIMD adds; entries stay strictly rising either way.
+    int step = kModelTargets.of_symbol[symbol][i] - c[i] + (1 << (shift - 1));
+    if (step > 32767) step = 32767;
+    c[i] = static_cast<std::uint16_t>(c[i] + (step >> shift));
+  }
+  rate.uses = static_cast<std::uint8_t>(rate.uses + (rate.uses < rate.uses_limit));
+}
+
+#endif
+
+}  // namespace selvage
