@@ -3,9 +3,8 @@
 // What does each stage of segmentation cost, over building the adjacency in the same process?
 //
 //   stage_bench MODEL...                     default mode, one core, triangles in Morton order
-//   stage_bench --mode classic-3 --repeats 7 MODEL...   (dissertation Fig. 4.15 over classic-1, -2, -3, -5; Fig. 4.16)
-//   stage_bench --threads 2 MODEL...
-//   stage_bench --mode streaming --set tau=0.02 MODEL...
+//   stage_bench --mode classic-3 --repeats 7 MODEL...   (dissertation Fig. 4.15 over classic-1, -2, -3, -5;
+//   Fig. 4.16) stage_bench --threads 2 MODEL... stage_bench --mode streaming --set tau=0.02 MODEL...
 //
 // Times are the least of the repeats, in ms: CPU time, or wall time with more than one thread. Then come
 // regions, boundary triangles and loose vertices.
@@ -101,7 +100,8 @@ void time_stages(const CornerTable& mesh, const std::vector<Vec3>& positions, co
   });
 }
 
-/// The stages of classic mode, and depth-based merging to the same number of regions beside its own (Fig. 4.16).
+/// The stages of classic mode, and depth-based merging to the same number of regions beside its own
+/// (Fig. 4.16).
 void time_stages(const CornerTable& mesh, const std::vector<Vec3>& positions, const ClassicOptions& options,
                  const ParallelFor& parallel, Stopwatch& time) {
   const Components components = find_components(mesh);
@@ -109,7 +109,8 @@ void time_stages(const CornerTable& mesh, const std::vector<Vec3>& positions, co
   const Features features = time("features", [&] {
     return extract_features(mesh, positions, components, shapes, options.xmr_rings, parallel);
   });
-  Minima basins = time("minima", [&] { return label_minima(mesh, find_plateau(features, options.thresholds)); });
+  Minima basins =
+      time("minima", [&] { return label_minima(mesh, find_plateau(features, options.thresholds)); });
   basins = time("erosion", [&] {
     erode_plateau(mesh, basins);
     return basins;
@@ -146,8 +147,10 @@ int bench_model(const Command& command, const Mode& mode, const std::string& pat
   const std::vector<Triangle> triangles = triangles_of(mesh);
   for (int i = 0; i < command.repeats; ++i) {
     time("adjacency", [&] { return build_corner_table(triangles, mesh.vertex_count()); });
-    if (is_xmrg) time_stages(mesh, positions, xmrg_options(options), parallel, time);
-    else time_stages(mesh, positions, ClassicOptions{options.xmr_rings, options.thresholds}, parallel, time);
+    if (is_xmrg)
+      time_stages(mesh, positions, xmrg_options(options), parallel, time);
+    else
+      time_stages(mesh, positions, ClassicOptions{options.xmr_rings, options.thresholds}, parallel, time);
     result = time("segment", [&] { return segment(mesh, positions, options, parallel); });
     time("regularise",
          [&] { return regularise(mesh, result.region_of_vertex, options.regularise, positions); });
