@@ -24,8 +24,11 @@ struct Patches {
 
   std::span<const std::byte> bytes(const PartId& id) const { return pack->part(*directory.find(id)); }
   RegionMesh region(RegionId id) const {
-    const LevelEntry& level = directory.regions[id].levels[0];
-    return decode_region(pack->part(level.part), {level.vertices, level.triangles}).value();
+    const RegionEntry& entry = directory.regions[id];
+    const LevelEntry& level = entry.levels[0];
+    return decode_region(pack->part(level.part),
+                         {level.vertices, level.triangles, entry.box_min, entry.box_max})
+        .value();
   }
 };
 
