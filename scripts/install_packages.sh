@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 #
-# Installs the Debian packages of packages.txt that this machine does not have yet; nothing else, and without
-# touching the network when there are none. The one way in which ./run, docker/Dockerfile and CI set up a machine.
+# install_packages.sh [LIST...]: installs the Debian packages of packages.txt, and of further lists, that this machine
+# does not have yet; nothing else, and without touching the network when there are none. The one way in which ./run,
+# docker/Dockerfile and CI set up a machine.
 # Needs only what a bare Debian has: bash, coreutils, dpkg, apt; root or sudo if something is missing.
 set -euo pipefail
 
@@ -13,6 +14,8 @@ die() {
   exit 1
 }
 
+lists=("$root/packages.txt" "$@")
+
 # One name a line, without comments and blanks.
 listed_packages() {
   local line
@@ -20,7 +23,7 @@ listed_packages() {
     line=${line%%#*}
     line=${line//[[:space:]]/}
     [[ -z $line ]] || printf '%s\n' "$line"
-  done < "$root/packages.txt"
+  done < <(cat -- "${lists[@]}")
 }
 
 is_installed() {
