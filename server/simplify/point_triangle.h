@@ -28,10 +28,12 @@ struct PreparedTriangle {
     if (d1 <= 0 && d2 <= 0) return ap_ap;
     const double d3 = d1 - ab_ab, d4 = d2 - ab_ac;
     if (d3 >= 0 && d4 <= d3) return from_corner(p - (a + ab));
-    if (d1 * d4 - d3 * d2 <= 0 && d1 >= 0 && d3 <= 0) return std::max(0.0, ap_ap - d1 * d1 / ab_ab);
+    if (d1 * d4 - d3 * d2 <= 0 && d1 >= 0 && d3 <= 0 && ab_ab > 0)
+      return std::max(0.0, ap_ap - d1 * d1 / ab_ab);
     const double d5 = d1 - ab_ac, d6 = d2 - ac_ac;
     if (d6 >= 0 && d5 <= d6) return from_corner(p - (a + ac));
-    if (d5 * d2 - d1 * d6 <= 0 && d2 >= 0 && d6 <= 0) return std::max(0.0, ap_ap - d2 * d2 / ac_ac);
+    if (d5 * d2 - d1 * d6 <= 0 && d2 >= 0 && d6 <= 0 && ac_ac > 0)
+      return std::max(0.0, ap_ap - d2 * d2 / ac_ac);
     if (d3 * d6 - d5 * d4 <= 0 && d4 >= d3 && d5 >= d6) {
       const Vec3 bp = ap - ab;
       const double along = d4 - d3;

@@ -151,7 +151,8 @@ bool Run::keeps_shape(std::uint32_t place) const {
 bool Run::keeps_links(std::uint32_t place) {
   if (!keeps_manifold(mesh_.table(), star_, place, stamps_)) return false;
   return class_of_vertex_[star_.centre] != VertexClass::Chain ||
-         bridges_.keep_one_common_neighbour(star_.centre, star_.ring[place], stamps_);
+         (keeps_region(mesh_.table(), input_.region_of_vertex, star_, place) &&
+          bridges_.keep_one_common_neighbour(star_.centre, star_.ring[place], stamps_));
 }
 
 /// Measures u's deviation if it is not known. False if u has to wait: parked for this level, or behind

@@ -68,4 +68,19 @@ bool is_allowed(VertexClass vertex_class, std::span<const RegionId> region_of_ve
   return is_own(place) && is_own(star.next_place(place)) != is_own(star.previous_place(place));
 }
 
+/// The piece is the triangle alone if boundary triangles lie beyond its other two edges as well.
+bool keeps_region(const CornerTable& mesh, std::span<const RegionId> region_of_vertex, const Star& star,
+                  std::uint32_t place) {
+  const RegionId own = region_of_vertex[star.centre];
+  const bool is_after = region_of_vertex[star.ring[star.next_place(place)]] == own;
+  const CornerId at_centre =
+      star.corners[is_after ? star.triangle_after(place) : star.triangle_before(place)];
+  const CornerId at_target = is_after ? next(at_centre) : prev(at_centre);
+  for (const CornerId c : {at_centre, at_target}) {
+    const CornerId beyond = mesh.opposite[c];
+    if (beyond != kNone && region_of_vertex[mesh.vertex(beyond)] == own) return true;
+  }
+  return false;
+}
+
 }  // namespace selvage

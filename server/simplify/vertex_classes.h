@@ -33,4 +33,9 @@ std::vector<VertexClass> classify_vertices(const CornerTable& mesh,
 bool is_allowed(VertexClass vertex_class, std::span<const RegionId> region_of_vertex, const Star& star,
                 std::uint32_t place);
 
+/// For a chain vertex and an allowed place: whether the region triangle at their edge, which will go, leaves
+/// its piece of the region another one. All other collapses do.
+bool keeps_region(const CornerTable& mesh, std::span<const RegionId> region_of_vertex, const Star& star,
+                  std::uint32_t place);
+
 }  // namespace selvage
