@@ -10,12 +10,14 @@
 #include "server/app/build_command.h"
 #include "server/app/inspect_command.h"
 #include "server/app/sample_command.h"
+#include "server/app/simplify_command.h"
 
 namespace {
 
 using selvage::BuildCommand;
 using selvage::InspectCommand;
 using selvage::SampleCommand;
+using selvage::SimplifyCommand;
 
 void add_segmentation_options(CLI::App& build, selvage::SegmentOptions& segment) {
   using selvage::SegmentMode;
@@ -112,6 +114,41 @@ void add_sample(CLI::App& app, SampleCommand& command) {
       "Examples:\n  selvage-pack sample\n  selvage-pack sample waterneck --triangles 400000 -o big.ply");
 }
 
+void add_simplify(CLI::App& app, SimplifyCommand& command) {
+  using selvage::CollapseCost;
+  using selvage::FlipTest;
+  const std::map<std::string, CollapseCost> costs = {
+      {"md", CollapseCost::PlaneDistance}, {"ea", CollapseCost::EdgeArea}, {"qem", CollapseCost::Quadric}};
+  const std::map<std::string, FlipTest> flips = {{"normal", FlipTest::Normal}, {"concave", FlipTest::Concave}};
+  CLI::App& simplify = *app.add_subcommand("simplify", "Write a mesh with fewer triangles");
+  simplify.add_option("MODEL", command.model, "mesh: .ply .obj .off .stl .wrl .om")->required();
+  simplify.add_option("-o,--output", command.output, "the mesh to write; the extension names the format")
+      ->required();
+  CLI::Option_group& limit = *simplify.add_option_group("How far", "At least one; the first one met ends it");
+  limit.add_option("--ratio", command.ratio, "share of the triangles to keep")->check(CLI::Range(0.0, 1.0));
+  limit.add_option("--triangles", command.triangles, "triangles to keep");
+  limit.add_option("--error", command.error, "largest deviation of a removed vertex, in units of the model")
+      ->check(CLI::NonNegativeNumber);
+  limit.require_option(1, 3);
+  simplify
+      .add_option("--cost", command.options.cost,
+                  "what goes first: md (plane distance, gated by deviation), ea (edge curvature and area "
+                  "change), qem (quadrics); the last two for comparison")
+      ->transform(CLI::CheckedTransformer(costs, CLI::ignore_case))
+      ->default_str("md");
+  simplify
+      .add_option("--flip", command.options.flip,
+                  "how turned triangles are prevented: normal, or concave, the usual one of ea")
+      ->transform(CLI::CheckedTransformer(flips, CLI::ignore_case));
+  simplify.add_flag("--json", command.json, "print the result as JSON");
+  simplify.footer(
+      "Non-manifold places stay as they are. Vertices that are kept keep their coordinates and their order.\n"
+      "Examples:\n"
+      "  selvage-pack simplify bunny.ply --ratio 0.1 -o bunny_10.ply\n"
+      "  selvage-pack simplify engine.stl --error 0.05 -o engine_coarse.stl --json\n"
+      "  selvage-pack simplify cow.obj --triangles 500 --cost ea -o cow_500.obj");
+}
+
 int finish(const selvage::Result<void>& result) {
   if (result) return 0;
   std::fprintf(stderr, "selvage-pack: %s\n", result.error().to_string().c_str());
@@ -126,12 +163,15 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   BuildCommand build;
   InspectCommand inspect;
-  add_build(app, build);
+  SimplifyCommand simplify;
   SampleCommand sample;
+  add_build(app, build);
   add_inspect(app, inspect);
   add_sample(app, sample);
+  add_simplify(app, simplify);
   CLI11_PARSE(app, argc, argv);
   if (app.got_subcommand("build")) return finish(run(build));
   if (app.got_subcommand("inspect")) return finish(run(inspect));
-  return finish(run(sample));
+  if (app.got_subcommand("sample")) return finish(run(sample));
+  return finish(run(simplify));
 }

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+#include "server/simplify/levels.h"
+
+#include <cmath>
+#include <random>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "common/mesh/grid.h"
+#include "common/samples/samples.h"
+#include "server/segment/check_partition.h"
+#include "server/segment/regularise.h"
+#include "tests/simplify/simplify_support.h"
+#include "tests/support/random_meshes.h"
+#include "tests/support/shapes.h"
+
+namespace selvage {
+namespace {
+
+struct LabelledMesh {
+  std::string name;
+  CornerTable table;
+  std::vector<Vec3> positions;
+  Segmentation segmentation;
+};
+
+/// Patches: cubes of side `cell` hold the vertices of a label, made codable.
+LabelledMesh labelled(std::string name, CornerTable table, std::vector<Vec3> positions, double cell) {
+  std::vector<std::uint32_t> labels;
+  for (const Vec3& p : positions) {
+    const auto step = [&](double x) { return static_cast<std::uint32_t>(std::floor(x / cell) + 512); };
+    labels.push_back(step(p.x) << 20 | step(p.y) << 10 | step(p.z));
+  }
+  Segmentation segmentation = regularise(table, labels, {.min_piece_triangles = 3}, positions);
+  return {std::move(name), std::move(table), std::move(positions), std::move(segmentation)};
+}
+
+LabelledMesh labelled(std::string name, const TriangleSoup& soup, double cell) {
+  return labelled(std::move(name), build_corner_table(soup.triangles, std::uint32_t(soup.positions.size())),
+                  soup.positions, cell);
+}
+
+std::vector<LabelledMesh> models() {
+  std::vector<LabelledMesh> all;
+  all.push_back(labelled("torus", shapes::torus(30, 90), 1.1));
+  all.push_back(labelled("sphere", shapes::sphere(5), 0.4));
+  all.push_back(labelled("grid", shapes::grid_with_holes(40, 40, 8), 7));
+  all.push_back(labelled("cylinder", shapes::open_cylinder(24, 40), 5));
+  all.push_back(labelled("box", box_with_handle(), 6));
+  all.push_back(labelled("lamp", lamp(48), 2.2));
+  for (const auto& [sample, cells] : {std::pair("dumbbell", 6.0), std::pair("waterneck", 7.0),
+                                      std::pair("bracket", 6.0), std::pair("assembly", 6.0)}) {
+    const TriangleSoup soup = make_sample(sample, 8000).value();
+    double side = 0;
+    for (const Vec3& p : soup.positions) side = std::max({side, p.x, p.y, p.z});
+    all.push_back(labelled(sample, soup, side / cells));
+  }
+  for (std::uint32_t seed = 0; seed < 30; ++seed) {
+    RandomManifold mesh = random_manifold(seed);
+    all.push_back(labelled("random " + std::to_string(seed), mesh.table, mesh.positions, 1.5));
+  }
+  return all;
+}
+
+LevelledMesh levels_of(const LabelledMesh& mesh, Simplification* run = nullptr) {
+  std::vector<LevelTarget> targets;
+  for (const double ratio : {0.5, 0.25, 0.125, 0.0625, 0.0}) {
+    targets.push_back({static_cast<std::uint32_t>(ratio * mesh.table.triangle_count())});
+  }
+  const auto& labels = mesh.segmentation.region_of_vertex;
+  const Simplification simplification = simplify({mesh.table, mesh.positions, labels}, targets);
+  if (run != nullptr) *run = simplification;
+  return split_by_region(mesh.table, labels, mesh.segmentation.region_count, simplification);
+}
+
+std::vector<Triangle> mix(const LabelledMesh& mesh, const LevelledMesh& levels,
+                          std::span<const std::uint32_t> level_of_region) {
+  return mixed_triangles(mesh.table, mesh.segmentation.region_of_vertex, levels, level_of_region);
+}
+
+TEST(Levels, AnyMixIsAManifoldWithTheBordersOfTheInput) {
+  std::mt19937 random(1);
+  for (const LabelledMesh& mesh : models()) {
+    const LevelledMesh levels = levels_of(mesh);
+    const std::uint32_t vertices = mesh.table.vertex_count();
+    const std::vector<std::uint32_t> finest(mesh.segmentation.region_count + 1, 0);
+    const Topology expected = topology_of(mix(mesh, levels, finest), vertices);
+    for (int round = 0; round < 24; ++round) {
+      std::vector<std::uint32_t> level_of_region = finest;
+      for (std::uint32_t& level : level_of_region) {
+        // At first the extremes, where lockstep tests would not tell.
+        level = round < 8 ? 5 * (random() % 2) : random() % 6;
+      }
+      const std::vector<Triangle> mixed = mix(mesh, levels, level_of_region);
+      ASSERT_EQ(manifold_violation(mixed, vertices), "") << mesh.name << ", round " << round;
+      ASSERT_EQ(topology_of(mixed, vertices), expected) << mesh.name << ", round " << round;
+    }
+  }
+}
+
+TEST(Levels, OneRegionAloneAtEveryLevelIsValid) {
+  const LabelledMesh mesh = labelled("torus", shapes::torus(30, 90), 1.1);
+  const LevelledMesh levels = levels_of(mesh);
+  for (std::uint32_t other : {0u, 5u}) {
+    for (RegionId region = 1; region <= mesh.segmentation.region_count; ++region) {
+      for (std::uint32_t level = 0; level < 6; ++level) {
+        std::vector<std::uint32_t> level_of_region(mesh.segmentation.region_count + 1, other);
+        level_of_region[region] = level;
+        ASSERT_EQ(manifold_violation(mix(mesh, levels, level_of_region), mesh.table.vertex_count()), "");
+      }
+    }
+  }
+}
+
+TEST(Levels, TheFinestIsExact) {
+  for (const LabelledMesh& mesh : models()) {
+    const LevelledMesh levels = levels_of(mesh);
+    const std::vector<std::uint32_t> finest(mesh.segmentation.region_count + 1, 0);
+    std::vector<Triangle> expected;
+    for (TriangleId t = 0; t < mesh.table.triangle_count(); ++t) expected.push_back(mesh.table.triangle(t));
+    EXPECT_EQ(mix(mesh, levels, finest), expected) << mesh.name;
+  }
+}
+
+TEST(Levels, ARegionsOwnTrianglesStayOnePieceAtEveryLevel) {
+  for (const LabelledMesh& mesh : models()) {
+    const LevelledMesh levels = levels_of(mesh);
+    for (std::size_t level = 0; level < levels.regions.size(); ++level) {
+      const auto& representative = levels.representative_of_vertex[level];
+      for (RegionId region = 1; region <= mesh.segmentation.region_count; ++region) {
+        const auto own = [&](std::span<const TriangleId> ids) {
+          std::vector<Triangle> triangles;
+          for (const TriangleId t : ids) {
+            triangles.push_back(mesh.table.triangle(t));
+            for (VertexId& v : triangles.back()) v = representative[v];
+          }
+          return triangles;
+        };
+        const std::vector<Triangle> coarse = own(levels.regions[level][region].triangles);
+        ASSERT_EQ(manifold_violation(coarse, mesh.table.vertex_count()), "")
+            << mesh.name << " region " << region;
+        std::vector<Triangle> finest;
+        for (const TriangleId t : levels.regions[0][region].triangles)
+          finest.push_back(mesh.table.triangle(t));
+        ASSERT_EQ(topology_of(coarse, mesh.table.vertex_count()),
+                  topology_of(finest, mesh.table.vertex_count()))
+            << mesh.name << " region " << region << " level " << level;
+      }
+    }
+  }
+}
+
+TEST(Levels, VerticesListedAreThoseOfTheTriangles) {
+  const LabelledMesh mesh = labelled("sphere", shapes::sphere(5), 0.4);
+  const LevelledMesh levels = levels_of(mesh);
+  for (std::size_t level = 0; level < levels.regions.size(); ++level) {
+    for (RegionId region = 1; region <= mesh.segmentation.region_count; ++region) {
+      std::set<VertexId> used;
+      for (const TriangleId t : levels.regions[level][region].triangles) {
+        for (const VertexId v : mesh.table.triangle(t))
+          used.insert(levels.representative_of_vertex[level][v]);
+      }
+      EXPECT_EQ(std::vector<VertexId>(used.begin(), used.end()), levels.regions[level][region].vertices);
+    }
+  }
+}
+
+TEST(Levels, RepresentativesStayInTheirRegionAndLoopVerticesOnTheirLoop) {
+  for (const LabelledMesh& mesh : models()) {
+    const LevelledMesh levels = levels_of(mesh);
+    const auto& labels = mesh.segmentation.region_of_vertex;
+    std::vector<bool> is_loop_vertex(mesh.table.vertex_count(), false);
+    for (TriangleId t = 0; t < mesh.table.triangle_count(); ++t) {
+      const auto [a, b, c] = mesh.table.triangle(t);
+      if (labels[a] == labels[b] && labels[a] == labels[c]) continue;
+      is_loop_vertex[a] = is_loop_vertex[b] = is_loop_vertex[c] = true;
+    }
+    for (const auto& representative : levels.representative_of_vertex) {
+      for (VertexId v = 0; v < mesh.table.vertex_count(); ++v) {
+        ASSERT_EQ(labels[representative[v]], labels[v]);
+        ASSERT_TRUE(!is_loop_vertex[v] || is_loop_vertex[representative[v]]);
+      }
+    }
+  }
+}
+
+TEST(Levels, ARegionThatCannotShrinkRepeatsItsLevel) {
+  const LabelledMesh mesh = labelled("sphere", shapes::sphere(4), 0.4);
+  const std::vector<LevelTarget> targets = {{0}, {0}};
+  const auto& labels = mesh.segmentation.region_of_vertex;
+  const LevelledMesh levels = split_by_region(mesh.table, labels, mesh.segmentation.region_count,
+                                              simplify({mesh.table, mesh.positions, labels}, targets));
+  for (RegionId region = 1; region <= mesh.segmentation.region_count; ++region) {
+    EXPECT_TRUE(levels.regions[2][region].is_repeat);
+    EXPECT_EQ(levels.regions[2][region].triangles, levels.regions[1][region].triangles);
+  }
+}
+
+// Quantised positions in, grid points out: a level's vertices are the finest mesh's.
+TEST(Levels, WorkOnGridCoordinates) {
+  const TriangleSoup soup = shapes::torus(30, 90);
+  const Grid grid = make_grid(soup.positions, 10);
+  std::vector<Vec3> positions;
+  for (const Vec3& p : soup.positions) {
+    const GridPoint g = grid.quantise(p);
+    positions.push_back({double(g.x), double(g.y), double(g.z)});
+  }
+  LabelledMesh mesh = labelled("torus", soup, 3);
+  mesh.positions = positions;
+  Simplification run;
+  const LevelledMesh levels = levels_of(mesh, &run);
+  EXPECT_LT(run.levels[3].triangles, 700u);
+  double largest = 0;
+  for (const RegionLevel& region : levels.regions[3]) largest = std::max(largest, region.deviation);
+  EXPECT_EQ(largest, run.levels[3].deviation);
+}
+
+}  // namespace
+}  // namespace selvage
