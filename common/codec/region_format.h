@@ -14,7 +14,7 @@
 
 #include "common/base/result.h"
 #include "common/codec/codec_tables.h"
-#include "common/codec/predictor.h"
+#include "common/codec/geometry_walk.h"
 #include "common/coding/byte_io.h"
 #include "common/mesh/boundary_loops.h"
 
