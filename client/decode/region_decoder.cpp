@@ -6,6 +6,7 @@
 
 #include "client/decode/attribute_decoder.h"
 #include "client/decode/connectivity_decoder.h"
+#include "client/decode/exact_decoder.h"
 #include "common/codec/region_format.h"
 #include "common/coding/entropy_decoder.h"
 
@@ -51,6 +52,12 @@ Result<RegionMesh> decode_region(std::span<const std::byte> bytes, const DecodeL
   } else {
     if (!decode_loose_vertices(in, expected.vertices, mesh)) return mismatch();
     if (auto ok = decode_loose_positions(in, expected.vertices, box, mesh); !ok) return forward_error(ok);
+  }
+  if (header->has_exact != expected.exact.has_value()) return mismatch();
+  if (expected.exact) {
+    auto exact = decode_exact(mesh.positions, *expected.exact, in);
+    if (!exact) return forward_error(exact);
+    mesh.exact = std::move(*exact);
   }
   if (auto ok = decode_turned_and_anchors(in, *header, mesh); !ok) return forward_error(ok);
   return mesh;

@@ -42,11 +42,18 @@ void append_triangle(StitchedMesh& mesh, Triangle triangle, bool is_turned, Regi
   mesh.region_of_triangle.push_back(region);
 }
 
+Vec3 position_of(const RegionMesh& region, VertexId v, const Grid& grid) {
+  if (region.exact.empty()) return grid.position(region.positions[v]);
+  const ExactPosition& exact = region.exact[v];
+  return {exact[0], exact[1], exact[2]};
+}
+
 }  // namespace
 
 Result<void> Stitcher::add_region(RegionId region, RegionMesh mesh) {
   if (region >= directory_.regions.size() || mesh.loops.lengths != directory_.regions[region].loop_lengths) {
-    return fail(ErrorCode::BadStream, "region " + std::to_string(region) + ": boundary loops differ from the directory's");
+    return fail(ErrorCode::BadStream,
+                "region " + std::to_string(region) + ": boundary loops differ from the directory's");
   }
   regions_.insert_or_assign(region, std::move(mesh));
   return {};
@@ -57,7 +64,9 @@ Result<void> Stitcher::add_bundle(RegionId region, std::vector<BoundaryTriangle>
     for (const BoundaryRef& corner : triangle.corners) {
       const bool is_there = corner.region < directory_.regions.size() &&
                             corner.index < directory_.regions[corner.region].boundary_vertices();
-      if (!is_there) return fail(ErrorCode::BadStream, "bundle " + std::to_string(region) + ": names a vertex that is not there");
+      if (!is_there)
+        return fail(ErrorCode::BadStream,
+                    "bundle " + std::to_string(region) + ": names a vertex that is not there");
     }
   }
   bundles_.insert_or_assign(region, std::move(triangles));
@@ -70,10 +79,12 @@ StitchedMesh Stitcher::mesh() const {
   stitched.soup.positions.resize(map.count());
   for (const auto& [id, region] : regions_) {
     const std::vector<VertexId>& vertex = map.of(id);
-    for (VertexId v = 0; v < vertex.size(); ++v) stitched.soup.positions[vertex[v]] = directory_.grid.position(region.positions[v]);
+    for (VertexId v = 0; v < vertex.size(); ++v)
+      stitched.soup.positions[vertex[v]] = position_of(region, v, directory_.grid);
     for (TriangleId t = 0; t < region.table.triangle_count(); ++t) {
       const auto [a, b, c] = region.table.triangle(t);
-      append_triangle(stitched, {vertex[a], vertex[b], vertex[c]}, !region.is_turned.empty() && region.is_turned[t], id);
+      append_triangle(stitched, {vertex[a], vertex[b], vertex[c]},
+                      !region.is_turned.empty() && region.is_turned[t], id);
     }
   }
   for (const auto& [id, triangles] : bundles_) {

@@ -39,6 +39,9 @@ enum Field : unsigned {
   kAnchorGap,
   kGroupStep,
   kLooseCount,
+  kExact,  ///< three: by the symbol before on the same axis
+  kExact1,
+  kExact2,
   kCount
 };
 }  // namespace region_model

@@ -8,6 +8,7 @@
 #include "common/codec/region_format.h"
 #include "server/encode/attribute_encoder.h"
 #include "server/encode/connectivity_encoder.h"
+#include "server/encode/exact_encoder.h"
 
 namespace selvage {
 namespace {
@@ -97,10 +98,20 @@ EncodedRegion encode_region(const RegionSource& source, const CodecTables& table
     encoded.source_of_vertex = mesh.loops.vertices;
   }
   mesh.anchors = map_anchors(mesh, encoded.source_of_vertex, source.weld_groups);
+  if (!source.exact.empty()) {
+    std::vector<GridPoint> positions;
+    for (VertexId v : encoded.source_of_vertex) {
+      positions.push_back(source.positions[v]);
+      mesh.exact.push_back(source.exact[v]);
+    }
+    encode_exact(positions, mesh.exact, source.grid, out);
+  }
   encode_turned_and_anchors(mesh, out);
 
   ByteWriter part;
-  write_region_header(part, {.has_turned = !mesh.is_turned.empty(), .has_anchors = !mesh.anchors.empty()});
+  write_region_header(part, {.has_turned = !mesh.is_turned.empty(),
+                             .has_anchors = !mesh.anchors.empty(),
+                             .has_exact = !mesh.exact.empty()});
   const EntropyEncoder::Coded coded = out.finish<2>(tables.region);
   part.append(coded.bytes);
   encoded.connectivity_size = coded.bytes_to_mark;
