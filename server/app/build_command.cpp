@@ -98,7 +98,8 @@ Result<void> run(const BuildCommand& command) {
   // Ctrl-C ends the work between stages; nothing has been written then.
   std::signal(SIGINT, [](int) { g_interrupted = 1; });
   const std::string name = command.name.empty() ? command.model.stem().string() : command.name;
-  const IngestOptions options{name, command.units, command.metadata, command.bits, command.segment};
+  const IngestOptions options{name,         command.units,   command.metadata,
+                              command.bits, command.segment, command.lossless};
   ProgressLine line;
   auto model =
       ingest(file->soup, options, threaded_for(command.threads), [&](const std::string& stage, double done) {
