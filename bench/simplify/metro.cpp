@@ -6,100 +6,10 @@
 #include <limits>
 #include <set>
 
-#include "server/simplify/point_triangle.h"
+#include "bench/simplify/nearest_triangle.h"
 
 namespace selvage::bench {
 namespace {
-
-struct Box {
-  Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
-
-  void add(const Vec3& p) {
-    for (int axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], p[axis]);
-      high[axis] = std::max(high[axis], p[axis]);
-    }
-  }
-  double squared_distance(const Vec3& p) const {
-    double sum = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double d = std::max({low[axis] - p[axis], p[axis] - high[axis], 0.0});
-      sum += d * d;
-    }
-    return sum;
-  }
-};
-
-/// Nearest points by a tree of boxes, split in the middle of the longest side's order.
-class NearestTriangle {
- public:
-  explicit NearestTriangle(const TriangleSoup& soup) {
-    for (const auto& [a, b, c] : soup.triangles) {
-      triangles_.emplace_back(soup.positions[a], soup.positions[b], soup.positions[c]);
-    }
-    if (!triangles_.empty()) build(0, triangles_.size());
-  }
-
-  double distance(const Vec3& p) {
-    double least = triangles_[last_].squared_distance(p);  // samples come in order: a good start
-    stack_.assign(1, 0);
-    while (!stack_.empty()) {
-      const Node& node = nodes_[stack_.back()];
-      stack_.pop_back();
-      if (node.box.squared_distance(p) >= least) continue;
-      if (node.left == 0) {
-        for (std::size_t i = node.begin; i < node.end; ++i) {
-          const double d = triangles_[i].squared_distance(p);
-          if (d < least) least = d, last_ = i;
-        }
-        continue;
-      }
-      const bool left_first =
-          nodes_[node.left].box.squared_distance(p) < nodes_[node.right].box.squared_distance(p);
-      stack_.push_back(left_first ? node.right : node.left);
-      stack_.push_back(left_first ? node.left : node.right);
-    }
-    return std::sqrt(least);
-  }
-
- private:
-  struct Node {
-    Box box;
-    std::size_t begin, end;
-    std::uint32_t left = 0, right = 0;  // 0: a leaf
-  };
-
-  std::uint32_t build(std::size_t begin, std::size_t end) {
-    const auto id = static_cast<std::uint32_t>(nodes_.size());
-    nodes_.push_back({{}, begin, end});
-    Box box, middles;
-    for (std::size_t i = begin; i < end; ++i) {
-      const PreparedTriangle& t = triangles_[i];
-      for (const Vec3& corner : {t.a, t.a + t.ab, t.a + t.ac}) box.add(corner);
-      middles.add(middle_of(t));
-    }
-    nodes_[id].box = box;
-    if (end - begin <= 4) return id;
-    int axis = 0;
-    for (int other : {1, 2}) {
-      if (middles.high[other] - middles.low[other] > middles.high[axis] - middles.low[axis]) axis = other;
-    }
-    const std::size_t middle = (begin + end) / 2;
-    std::nth_element(triangles_.begin() + std::ptrdiff_t(begin), triangles_.begin() + std::ptrdiff_t(middle),
-                     triangles_.begin() + std::ptrdiff_t(end),
-                     [&](const auto& a, const auto& b) { return middle_of(a)[axis] < middle_of(b)[axis]; });
-    const std::uint32_t left = build(begin, middle), right = build(middle, end);
-    nodes_[id].left = left;
-    nodes_[id].right = right;
-    return id;
-  }
-  static Vec3 middle_of(const PreparedTriangle& t) { return t.a + (t.ab + t.ac) * (1.0 / 3); }
-
-  std::vector<PreparedTriangle> triangles_;
-  std::vector<Node> nodes_;
-  std::vector<std::uint32_t> stack_;
-  std::size_t last_ = 0;
-};
 
 /// Calls take(point) for the samples of a surface.
 template <class Take>
