@@ -2,7 +2,7 @@
 //
 // What do regions cost a simplification, and how good is any mix of levels?
 //
-//   levels_bench MODEL...                60 regions, levels of 50, 25, 12.5 and 6.25 % of the triangles
+//   levels_bench MODEL...                about 60 regions, levels of 50, 25, 12.5 and 6.25 % of the triangles
 //   levels_bench --regions 20 MODEL...
 //
 // For each model: CPU time with and without labels; at each level the two-sided Hausdorff and mean distance
@@ -124,7 +124,9 @@ bool measure(const std::string& path, std::uint32_t regions) {
     return std::fprintf(stderr, "%s: %s\n", path.c_str(), repaired.error().message.c_str()), false;
   RepairedMesh ordered = spatially_ordered(std::move(*repaired));
   LabelledMesh mesh{std::move(ordered.table), std::move(ordered.positions), {}, {}};
-  mesh.segmentation = segment(mesh.table, mesh.positions, {.target_regions = regions}, serial_for());
+  const SegmentOptions options{.target_regions = regions,
+                               .max_region_vertices = 3 * mesh.table.vertex_count() / (2 * regions)};
+  mesh.segmentation = segment(mesh.table, mesh.positions, options, serial_for());
   mesh.finest = soup_of(mesh, {});
   for (TriangleId t = 0; t < mesh.table.triangle_count(); ++t) {
     mesh.finest.triangles.push_back(mesh.table.triangle(t));
