@@ -23,7 +23,7 @@ struct IngestOptions {
   std::string units;                            ///< "mm", "m" ...; empty if unknown
   std::map<std::string, std::string> metadata;  ///< travels in the directory as it is
   int bits = 14;                                ///< grid bits along the longest side, 8..24
-  SegmentOptions segment;
+  SegmentOptions segment;                       ///< large models get streaming sizes, see with_streaming_sizes
 };
 
 struct StageTime {
