@@ -10,6 +10,7 @@
 #include "server/app/build_command.h"
 #include "server/app/inspect_command.h"
 #include "server/app/sample_command.h"
+#include "server/app/segmentation_options.h"
 #include "server/app/simplify_command.h"
 
 namespace {
@@ -18,58 +19,6 @@ using selvage::BuildCommand;
 using selvage::InspectCommand;
 using selvage::SampleCommand;
 using selvage::SimplifyCommand;
-
-void add_segmentation_options(CLI::App& build, selvage::SegmentOptions& segment) {
-  using selvage::SegmentMode;
-  const std::map<std::string, SegmentMode> modes = {{"xmrg", SegmentMode::Xmrg},
-                                                    {"classic", SegmentMode::Classic},
-                                                    {"zhang", SegmentMode::Zhang},
-                                                    {"mw99", SegmentMode::ManganWhitaker},
-                                                    {"cad", SegmentMode::Cad}};
-  const char* group = "Segmentation";
-  build
-      .add_option(
-          "--mode", segment.mode,
-          "how parts are found: xmrg (bending over a radius, watershed, hierarchy), cad (also at sharp "
-          "edges), classic (curvature and concaveness), zhang (curvature alone), mw99 (merging by depth)")
-      ->transform(CLI::CheckedTransformer(modes, CLI::ignore_case))
-      ->default_str("xmrg")
-      ->group(group);
-  build
-      .add_option("--regions", segment.target_regions,
-                  "xmrg, cad, mw99: merge until so many are left; 0: as many as the shape has")
-      ->capture_default_str()
-      ->group(group);
-  build
-      .add_option("--max-region", segment.max_region_vertices,
-                  "xmrg, cad: cut regions with more vertices; 0: none")
-      ->capture_default_str()
-      ->group(group);
-  build.add_flag("--smooth", segment.smooth, "xmrg, cad: smooth the borders between regions")->group(group);
-  build
-      .add_option("--xmr", segment.xmr_rings,
-                  "classic, zhang, mw99: rings of the neighbourhood that curvature is taken on")
-      ->check(CLI::Range(1, 5))
-      ->capture_default_str()
-      ->group(group);
-  build
-      .add_option("--min-region", segment.min_region_vertices,
-                  "merge regions with fewer vertices; 0: 1 % of the model, in xmrg and cad 0.5 % of the area")
-      ->capture_default_str()
-      ->group(group);
-  build
-      .add_option("--curvature-factor", segment.thresholds.curvature_factor,
-                  "classic: plateau below this share of the lowest curvature")
-      ->capture_default_str()
-      ->group(group);
-  build
-      .add_option("--distance-factor", segment.thresholds.distance_factor,
-                  "classic: plateau below this share of the deepest concavity")
-      ->capture_default_str()
-      ->group(group);
-  build.add_flag("--prune", segment.prune_branches, "classic: prune branches before regularisation")
-      ->group(group);
-}
 
 void add_build(CLI::App& app, BuildCommand& command) {
   CLI::App& build = *app.add_subcommand("build", "Segment and encode a mesh into a pack");
@@ -89,12 +38,14 @@ void add_build(CLI::App& app, BuildCommand& command) {
   build.add_option("--threads", command.threads, "0: all cores; the pack is the same for any number")
       ->capture_default_str();
   build.add_flag("--json", command.json, "print the result as JSON");
-  add_segmentation_options(build, command.segment);
+  selvage::add_segmentation_options(build, command.segment);
   build.footer(
       "Examples:\n"
       "  selvage-pack build bunny.ply\n"
       "  selvage-pack build engine.stl --store packs --bits 16 --units mm --meta author 'R. Roe'\n"
-      "  selvage-pack build statue.obj -o statue.selvage --xmr 5 --json");
+      "  selvage-pack build statue.obj -o statue.selvage --regions 12\n"
+      "  selvage-pack build fandisk.off --mode cad --max-region 2000\n"
+      "  selvage-pack build scan.ply --min-region 500 --max-region 20000 --smooth --json");
 }
 
 void add_inspect(CLI::App& app, InspectCommand& command) {

@@ -88,8 +88,9 @@ Result<IngestedModel> ingest(const TriangleSoup& soup, const IngestOptions& opti
   }
   const RepairedMesh mesh = clock.run("order", [&] { return spatially_ordered(std::move(*repaired)); });
   if (clock.is_cancelled()) return cancelled();
+  const SegmentOptions sized = with_streaming_sizes(options.segment, mesh.table.triangle_count());
   const Segmentation segmentation =
-      clock.run("segment", [&] { return segment(mesh.table, mesh.positions, options.segment, parallel); });
+      clock.run("segment", [&] { return segment(mesh.table, mesh.positions, sized, parallel); });
   if (clock.is_cancelled()) return cancelled();
   const Partition partition = clock.run("partition", [&] {
     return make_partition(mesh.table, segmentation.region_of_vertex, segmentation.region_count);

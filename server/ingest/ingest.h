@@ -23,8 +23,8 @@ struct IngestOptions {
   std::string units;                            ///< "mm", "m" ...; empty if unknown
   std::map<std::string, std::string> metadata;  ///< travels in the directory as it is
   int bits = 14;                                ///< grid bits along the longest side, 8..24
-  SegmentOptions segment;
-  bool lossless = false;  ///< keep float32 positions bit for bit besides the grid
+  SegmentOptions segment;                       ///< large models get streaming sizes, see with_streaming_sizes
+  bool lossless = false;                        ///< keep float32 positions bit for bit besides the grid
 };
 
 struct StageTime {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "common/base/ids.h"
 #include "server/segment/merge_by_size.h"
 
 namespace selvage {
@@ -50,9 +51,12 @@ std::vector<std::uint32_t> label_vertices(const CornerTable& mesh, std::span<con
 
 SegmentOptions with_streaming_sizes(SegmentOptions options, std::uint32_t triangle_count) {
   constexpr std::uint32_t kSmallModel = 20000, kMinVertices = 256, kMaxVertices = 4096;
-  if (triangle_count <= kSmallModel) return options;
-  if (options.min_region_vertices == 0) options.min_region_vertices = kMinVertices;
-  if (options.max_region_vertices == 0) options.max_region_vertices = kMaxVertices;
+  const bool has_sizes = options.mode == SegmentMode::Xmrg || options.mode == SegmentMode::Cad;
+  if (triangle_count <= kSmallModel || !has_sizes || options.target_regions > 0) return options;
+  std::uint32_t& least = options.min_region_vertices;
+  std::uint32_t& most = options.max_region_vertices;
+  if (least == 0) least = most == 0 ? kMinVertices : std::min(kMinVertices, std::max(1u, most / 4));
+  if (most == 0) most = std::max(kMaxVertices, least <= kNone / 4 ? 4 * least : kNone);
   return options;
 }
 

@@ -53,7 +53,8 @@ struct SegmentOptions {
 };
 
 /// The options with regions sized for streaming on models of more than 20,000 triangles: 256 to 4096 vertices
-/// where the options do not say otherwise. Smaller models stay as they are.
+/// where the options do not say otherwise; one that they say sets bounds to the other. Smaller models stay as
+/// they are, as do options that ask for a number of regions, and modes that do not know sizes.
 SegmentOptions with_streaming_sizes(SegmentOptions options, std::uint32_t triangle_count);
 
 /// Segments the mesh. `positions` has a finite point a vertex. The result is always codable (regularise.h)

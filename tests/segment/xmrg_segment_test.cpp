@@ -90,6 +90,17 @@ TEST(XmrgSegment, StreamingSizesLeaveSmallModelsAlone) {
   EXPECT_EQ(with_streaming_sizes({.max_region_vertices = 99}, 20001).max_region_vertices, 99u);
 }
 
+TEST(XmrgSegment, StreamingSizesGiveWayToWhatTheUserAskedFor) {
+  const SegmentOptions narrow = with_streaming_sizes({.max_region_vertices = 100}, 50000);
+  EXPECT_EQ(narrow.max_region_vertices, 100u);
+  EXPECT_LT(narrow.min_region_vertices, 100u);
+  const SegmentOptions wide = with_streaming_sizes({.min_region_vertices = 9000}, 50000);
+  EXPECT_EQ(wide.min_region_vertices, 9000u);
+  EXPECT_GT(wide.max_region_vertices, 9000u);
+  EXPECT_EQ(with_streaming_sizes({.target_regions = 5}, 50000).max_region_vertices, 0u);
+  EXPECT_EQ(with_streaming_sizes({.mode = SegmentMode::Classic}, 50000).min_region_vertices, 0u);
+}
+
 TEST(XmrgSegment, TakesEveryOddMeshInEveryMode) {
   for (const auto& [name, mesh] : odd_meshes()) {
     SCOPED_TRACE(name);
