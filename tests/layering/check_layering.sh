@@ -54,7 +54,7 @@ forbid "${pure/(decode|stitch)/decode}" '(thread|mutex|shared_mutex|atomic|futur
   'pure code has no threads, files, or clocks'
 
 only_in 'common/mesh_io/|client/interop/' 'OpenMesh/' 'OpenMesh has two doors'
-only_in 'common/net/|(server|client)/(session|app)/' '(boost/)?asio' 'Asio stays in net, session and app'
+only_in 'common/net/|(server|client)/(session|app)/|client/load/' '(boost/)?asio' 'Asio stays in net, sessions, load and app'
 only_in 'common/net/' 'boost/(beast|system)' 'Asio stays in net, session and app'
 only_in 'common/net/messages\.cpp' 'google/protobuf|[^">]*\.pb\.h' 'protobuf stays behind common/net/messages.h'
 only_in 'common/base/log\.cpp' 'spdlog/' 'spdlog stays behind common/base/log.h'
