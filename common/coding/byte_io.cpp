@@ -19,7 +19,7 @@ void ByteWriter::signed_varint(std::int64_t value) {
 
 void ByteWriter::string(std::string_view text) {
   varint(text.size());
-  append(std::as_bytes(std::span(text)));
+  append(std::as_bytes(std::span(text.data(), text.size())));
 }
 
 std::uint8_t ByteReader::u8() {
@@ -45,7 +45,8 @@ std::uint64_t ByteReader::varint() {
     const std::uint8_t byte = u8();
     if (!ok_) return 0;
     const std::uint64_t payload = byte & 0x7F;
-    // The tenth byte holds one bit. An overlong form (a trailing zero byte) would give one value two spellings.
+    // The tenth byte holds one bit. An overlong form (a trailing zero byte) would give one value two
+    // spellings.
     if ((shift == 63 && payload > 1) || (byte == 0 && shift > 0)) break;
     value |= payload << shift;
     if ((byte & 0x80) == 0) return value;

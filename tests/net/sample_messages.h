@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+//
+// One good message of every kind, with no field left at its default.
+#pragma once
+
+#include "common/net/messages.h"
+
+namespace selvage {
+
+template <class Message>
+Message sample() {
+  return {};  // those without fields
+}
+
+inline Hash sample_hash(std::uint8_t seed) {
+  Hash hash;
+  for (std::size_t i = 0; i < Hash::kSize; ++i) hash.bytes[i] = static_cast<std::uint8_t>(seed + i);
+  return hash;
+}
+
+template <>
+inline Hello sample() {
+  return {1, 3, "some client 1.0", 1 << 20, "token"};
+}
+template <>
+inline HelloAck sample() {
+  return {1, "some server 1.0", 1 << 19, 32, 65'536, 120'000};
+}
+template <>
+inline ListModels sample() {
+  return {"armadillo"};
+}
+template <>
+inline Models sample() {
+  return {{{"bunny", sample_hash(1), 123'456, 40, 34'834, 69'451, ""}, {"häuschen", {}, 12, 0, 0, 0, "torn"}},
+          true};
+}
+template <>
+inline OpenModel sample() {
+  return {"bunny"};
+}
+template <>
+inline ManifestBegin sample() {
+  return {sample_hash(2), 400, 12'345};
+}
+template <>
+inline GetParts sample() {
+  GetParts get;
+  get.model = "bunny";
+  get.pack_id = sample_hash(3);
+  get.selection = {.kind = Selection::Kind::Ids, .ids = {3, 5, 70'000}, .joins = Joins::All, .level = 2};
+  get.have = {sample_hash(4), sample_hash(5)};
+  get.partial = {{sample_hash(6), 4096}};
+  get.urgency = 1;
+  return get;
+}
+template <>
+inline PartBegin sample() {
+  return {{PartKind::Bundle, 17, 0}, 5000, 4096, sample_hash(7)};
+}
+template <>
+inline RequestEnd sample() {
+  return {12, std::uint64_t{5} << 32, 3};
+}
+template <>
+inline Credit sample() {
+  return {65'536};
+}
+template <>
+inline ErrorMessage sample() {
+  return {Error{ErrorCode::NotFound, "no model named 'bunny'"}, true};
+}
+template <>
+inline GoAway sample() {
+  return {"shutting down"};
+}
+
+}  // namespace selvage

@@ -1,0 +1,370 @@
+// SPDX-License-Identifier: MIT
+//
+// The client's session against servers that lie, stall or break; and both sessions over a connection whose
+// nth operation fails.
+#include <gtest/gtest.h>
+
+#include "tests/session/session_harness.h"
+
+namespace selvage {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::FaultPlan;
+using testing::make_memory_streams;
+using testing::MemoryStreamOptions;
+using testing::RawPeer;
+using testing::SessionHarness;
+using Work = asio::awaitable<void>;
+using Bytes = std::vector<std::byte>;
+
+constexpr auto ignore_part = [](ReceivedPart) {};
+
+// ---- servers that lie
+// ----------------------------------------------------------------------------------------
+
+/// A client and, by hand, its server.
+class LyingServer : public ::testing::Test {
+ protected:
+  using Script = Work (*)(RawPeer&, const Pack&);
+
+  /// What get(region 2 of 3) comes to when the server answers the get as `script` does.
+  Result<GetStats> get_from(Script script, ClientOptions options = {}) {
+    Result<GetStats> outcome = fail(ErrorCode::InvalidArgument, "no outcome");
+    SessionHarness harness;  // runs coroutines; its own session stays unused
+    auto [client_end, server_end] = make_memory_streams(harness.executor());
+    RawPeer server(std::move(server_end));
+    const auto pack = Pack::from_bytes(fake_pack_bytes(3, 1000)).value();
+    asio::co_spawn(harness.executor(), serve(server, *pack, script), asio::detached);
+    harness.run(fetch(std::move(client_end), options, outcome));
+    return outcome;
+  }
+
+ private:
+  static Work serve(RawPeer& server, const Pack& pack, Script script) {
+    const auto hello = co_await server.receive();
+    EXPECT_TRUE(hello && hello->is(FrameType::Hello));
+    HelloAck ack;
+    ack.max_message_bytes = 100'000;
+    ack.max_ids = 100;
+    ack.idle_timeout_ms = 60'000;
+    co_await server.send(std::move(ack));
+    const auto open = co_await server.receive();
+    EXPECT_TRUE(open && open->is(FrameType::OpenModel));
+    const auto directory = pack.directory_bytes();
+    ManifestBegin begin{pack.id(), pack.header().summary_size, directory.size()};
+    co_await server.send(begin, open->header.request_id, 0);
+    Bytes bytes(directory.begin(), directory.end());
+    co_await server.send_data(open->header.request_id, 1, std::move(bytes), true);
+    RequestEnd end{0, directory.size(), 0};
+    co_await server.send(end, open->header.request_id, 2);
+    const auto get = co_await server.receive();
+    if (!get) co_return;
+    EXPECT_TRUE(get->is(FrameType::GetParts));
+    EXPECT_EQ(get->header.request_id, 2u);
+    co_await script(server, pack);
+    std::optional<RawPeer::Received> more = co_await server.receive();
+    while (more) more = co_await server.receive();
+    server.close();
+  }
+
+  static Work fetch(std::unique_ptr<ByteStream> stream, ClientOptions options, Result<GetStats>& outcome) {
+    const auto session = co_await ClientSession::start(std::move(stream), options);
+    EXPECT_TRUE(session);
+    const auto manifest = co_await (*session)->open("row");
+    EXPECT_TRUE(manifest);
+    GetRequest request;
+    request.manifest = *manifest;
+    request.selection.kind = Selection::Kind::Ids;
+    request.selection.ids.push_back(2);
+    outcome = co_await (*session)->get(std::move(request), ignore_part);
+    (*session)->close();
+  }
+};
+
+const PartRef& region_2(const Pack& pack) { return pack.directory().regions[2].levels[0].part; }
+Bytes bytes_of_2(const Pack& pack) {
+  const auto part = pack.part(region_2(pack));
+  return {part.begin(), part.end()};
+}
+PartBegin begin_2(const Pack& pack) { return {{PartKind::Region, 2, 0}, 1000, 0, region_2(pack).hash}; }
+
+TEST_F(LyingServer, TheTruthIsAccepted) {
+  const auto stats = get_from([](RawPeer& server, const Pack& pack) -> Work {
+    co_await server.send(begin_2(pack), 2, 0);
+    co_await server.send_data(2, 1, bytes_of_2(pack), true);
+    RequestEnd end{1, 1000, 0};
+    co_await server.send(end, 2, 2);
+  });
+  ASSERT_TRUE(stats) << stats.error().message;
+  EXPECT_EQ(stats->parts, 1u);
+}
+
+TEST_F(LyingServer, WrongBytes) {
+  const auto stats = get_from([](RawPeer& server, const Pack& pack) -> Work {
+    co_await server.send(begin_2(pack), 2, 0);
+    Bytes bytes = bytes_of_2(pack);
+    bytes[500] ^= std::byte{1};
+    co_await server.send_data(2, 1, std::move(bytes), true);
+  });
+  EXPECT_EQ(stats.error().code, ErrorCode::BadStream);
+  EXPECT_NE(stats.error().message.find("region 2"), std::string::npos);
+}
+
+TEST_F(LyingServer, APartNotAskedFor) {
+  const auto stats = get_from([](RawPeer& server, const Pack& pack) -> Work {
+    PartBegin begin = begin_2(pack);
+    begin.id.region = 1;
+    co_await server.send(begin, 2, 0);
+  });
+  EXPECT_EQ(stats.error().code, ErrorCode::BadStream);
+}
+
+TEST_F(LyingServer, APartTwice) {
+  const auto stats = get_from([](RawPeer& server, const Pack& pack) -> Work {
+    co_await server.send(begin_2(pack), 2, 0);
+    co_await server.send_data(2, 1, bytes_of_2(pack), true);
+    co_await server.send(begin_2(pack), 2, 2);
+  });
+  EXPECT_EQ(stats.error().code, ErrorCode::BadStream);
+}
+
+TEST_F(LyingServer, AnotherSizeThanTheDirectorys) {
+  const auto stats = get_from([](RawPeer& server, const Pack& pack) -> Work {
+    PartBegin begin = begin_2(pack);
+    begin.size = 0xFFFFFFFF;
+    co_await server.send(begin, 2, 0);
+  });
+  EXPECT_EQ(stats.error().code, ErrorCode::BadStream);
+}
+
+TEST_F(LyingServer, MoreDataThanThePart) {
+  const auto stats = get_from([](RawPeer& server, const Pack& pack) -> Work {
+    co_await server.send(begin_2(pack), 2, 0);
+    Bytes bytes(1001);
+    co_await server.send_data(2, 1, std::move(bytes), true);
+  });
+  EXPECT_EQ(stats.error().code, ErrorCode::Protocol);
+}
+
+TEST_F(LyingServer, AnEndBeforeAllParts) {
+  const auto stats = get_from([](RawPeer& server, const Pack&) -> Work {
+    RequestEnd end{1, 1000, 0};
+    co_await server.send(end, 2, 0);
+  });
+  EXPECT_EQ(stats.error().code, ErrorCode::BadStream);
+}
+
+TEST_F(LyingServer, AFrameLeftOut) {
+  const auto stats = get_from([](RawPeer& server, const Pack& pack) -> Work {
+    co_await server.send(begin_2(pack), 2, 0);
+    co_await server.send_data(2, 2, bytes_of_2(pack), true);
+  });
+  EXPECT_EQ(stats.error().code, ErrorCode::Protocol);
+}
+
+TEST_F(LyingServer, AnAnswerToNobody) {
+  const auto stats =
+      get_from([](RawPeer& server, const Pack& pack) -> Work { co_await server.send(begin_2(pack), 3, 0); });
+  EXPECT_EQ(stats.error().code, ErrorCode::Protocol);
+}
+
+TEST_F(LyingServer, MoreThanWasGranted) {
+  const auto stats = get_from(
+      [](RawPeer& server, const Pack&) -> Work {
+        for (std::uint32_t seq = 0; seq < 3; ++seq) {
+          Bytes bytes(kMaxDataPayload);
+          co_await server.send_data(77, seq, std::move(bytes), false);
+        }
+      },
+      {.window_bytes = kMinInitialCredit});
+  EXPECT_EQ(stats.error().code, ErrorCode::Protocol);
+}
+
+TEST_F(LyingServer, AnErrorKeepsItsCode) {
+  const auto stats = get_from([](RawPeer& server, const Pack&) -> Work {
+    ErrorMessage message;
+    message.error = Error{ErrorCode::ModelChanged, "another pack"};
+    co_await server.send(message, 2, 0);
+  });
+  EXPECT_EQ(stats.error().code, ErrorCode::ModelChanged);
+  EXPECT_EQ(stats.error().message, "another pack");
+}
+
+TEST_F(LyingServer, Silence) {
+  const auto stats = get_from([](RawPeer&, const Pack&) -> Work { co_return; }, {.silence_timeout = 15ms});
+  EXPECT_EQ(stats.error().code, ErrorCode::Timeout);
+}
+
+TEST_F(LyingServer, LeavingInTheMiddle) {
+  const auto stats = get_from([](RawPeer& server, const Pack& pack) -> Work {
+    co_await server.send(begin_2(pack), 2, 0);
+    server.close();
+  });
+  EXPECT_EQ(stats.error().code, ErrorCode::Io);
+}
+
+TEST_F(LyingServer, LeavingAfterGoAway) {
+  const auto stats = get_from([](RawPeer& server, const Pack&) -> Work {
+    GoAway away{"maintenance"};
+    co_await server.send(away, 0, 0);
+    server.close();
+  });
+  EXPECT_EQ(stats.error().code, ErrorCode::Unavailable);
+  EXPECT_EQ(stats.error().message, "maintenance");
+}
+
+TEST(ClientSession, GivesUpOnAServerThatDoesNotGreet) {
+  SessionHarness harness;
+  auto [client_end, server_end] = make_memory_streams(harness.executor());
+  const auto work = [](std::unique_ptr<ByteStream> stream) -> Work {
+    ClientOptions options;
+    options.connect_timeout = 5ms;
+    const auto session = co_await ClientSession::start(std::move(stream), options);
+    EXPECT_EQ(session.error().code, ErrorCode::Timeout);
+  };
+  harness.run(work(std::move(client_end)));
+}
+
+// ---- flow control between both sessions
+// ----------------------------------------------------------------------
+
+TEST(ClientSession, PartsThatNobodyConsumesStopTheServerWithinTwoWindows) {
+  SessionHarness harness;
+  harness.folder().put("row.selvage", fake_pack_bytes(500, 10'000));
+  std::vector<ReceivedPart> kept;
+  const auto work = [](std::unique_ptr<ByteStream> stream, std::vector<ReceivedPart>& parts) -> Work {
+    ClientOptions options;
+    options.window_bytes = 100'000;
+    const auto session = co_await ClientSession::start(std::move(stream), options);
+    GetRequest request;
+    request.manifest = (co_await (*session)->open("row")).value();
+    bool ended = false;
+    auto on_part = [&parts](ReceivedPart part) { parts.push_back(std::move(part)); };
+    auto on_end = [&ended](std::exception_ptr, Result<GetStats> stats) { ended = stats.has_value(); };
+    asio::co_spawn((*session)->executor(), (*session)->get(std::move(request), std::move(on_part)),
+                   std::move(on_end));
+
+    // As many round trips as would do for all of it.
+    std::size_t most = 0;
+    for (int i = 0; i < 500; ++i) {
+      const auto pong = co_await (*session)->ping();
+      EXPECT_TRUE(pong);
+      most = std::max(most, parts.size());
+    }
+    EXPECT_FALSE(ended);
+    EXPECT_GE(most * 10'000, 100'000u);
+    EXPECT_LE(most / 2 * 10'000, 200'000u);  // every other part is a tiny bundle
+
+    // Consuming sets it going again.
+    while (!ended) {
+      parts.clear();
+      const auto pong = co_await (*session)->ping();
+      EXPECT_TRUE(pong);
+      if (!pong) break;
+    }
+    (*session)->close();
+  };
+  harness.run(work(harness.connect(), kept));
+}
+
+TEST(ClientSession, ACancelledGetLeavesRoomForTheNext) {
+  SessionHarness harness;
+  harness.folder().put("row.selvage", fake_pack_bytes(50, 100'000));
+  const auto work = [](std::unique_ptr<ByteStream> stream) -> Work {
+    ClientOptions options;
+    options.window_bytes = 200'000;
+    const auto session = co_await ClientSession::start(std::move(stream), options);
+    const auto manifest = (co_await (*session)->open("row")).value();
+    for (int i = 0; i < 5; ++i) {
+      std::stop_source source;
+      int parts = 0;
+      auto on_part = [&](ReceivedPart) { ++parts, source.request_stop(); };
+      GetRequest request;
+      request.manifest = manifest;
+      const auto stats = co_await (*session)->get(request, std::move(on_part), source.get_token());
+      EXPECT_FALSE(stats);
+      EXPECT_EQ(stats.error().code, ErrorCode::Cancelled);
+    }
+    GetRequest request;
+    request.manifest = manifest;
+    const auto stats = co_await (*session)->get(request, ignore_part);
+    EXPECT_TRUE(stats);
+    (*session)->close();
+  };
+  harness.run(work(harness.connect()));
+}
+
+TEST(ClientSession, RequestsOverlap) {
+  SessionHarness harness;
+  harness.folder().put("row.selvage", fake_pack_bytes(50, 20'000));
+  const auto work = [](std::unique_ptr<ByteStream> stream) -> Work {
+    const auto session = co_await ClientSession::start(std::move(stream), {});
+    const auto manifest = (co_await (*session)->open("row")).value();
+    int running = 5;
+    Signal all_done(co_await asio::this_coro::executor);
+    for (int i = 0; i < 5; ++i) {
+      GetRequest request;
+      request.manifest = manifest;
+      auto on_end = [&](std::exception_ptr, Result<GetStats> stats) {
+        EXPECT_TRUE(stats) << stats.error().message;
+        if (--running == 0) all_done.notify();
+      };
+      asio::co_spawn((*session)->executor(), (*session)->get(std::move(request), ignore_part),
+                     std::move(on_end));
+    }
+    co_await all_done.wait();
+    (*session)->close();
+  };
+  harness.run(work(harness.connect()));
+}
+
+// ---- failure everywhere
+// --------------------------------------------------------------------------------------
+
+/// List, open, get, ping. Whatever fails, both sides come to an end, and the client says so.
+Work use_everything(std::unique_ptr<ByteStream> stream, bool& succeeded) {
+  ClientOptions options;
+  options.window_bytes = kMinInitialCredit;
+  const auto session = co_await ClientSession::start(std::move(stream), options);
+  if (!session) co_return;
+  const auto models = co_await (*session)->list();
+  const auto manifest = co_await (*session)->open("row");
+  if (manifest) {
+    GetRequest request;
+    request.manifest = *manifest;
+    const auto stats = co_await (*session)->get(std::move(request), ignore_part);
+    const auto pong = co_await (*session)->ping();
+    succeeded = models && stats && pong;
+    if (stats) {
+      EXPECT_EQ(stats->parts, 19u);
+    }
+  }
+  (*session)->close();
+}
+
+class NthOperation : public ::testing::TestWithParam<bool> {};
+
+TEST_P(NthOperation, FailingEndsBothSidesInGoodOrder) {
+  bool succeeded = false;
+  std::size_t n = 0;
+  for (; !succeeded; ++n) {
+    ASSERT_LT(n, 1000u);
+    MemoryStreamOptions options;
+    options.capacity = 20'000;
+    options.read_limit = 10'000;
+    const auto fault = GetParam() ? options.first_fault : options.second_fault;
+    fault->fails_at = n;
+    SessionHarness harness({}, options);
+    harness.folder().put("row.selvage", fake_pack_bytes(10, 8'000));
+    harness.run(use_everything(harness.connect(), succeeded));
+    EXPECT_TRUE(!succeeded || !fault->happened() || harness.session().reason()) << n;
+  }
+  EXPECT_GT(n, 10u);
+}
+
+INSTANTIATE_TEST_SUITE_P(On, NthOperation, ::testing::Values(true, false),
+                         [](const auto& test) { return test.param ? "TheServersEnd" : "TheClientsEnd"; });
+
+}  // namespace
+}  // namespace selvage
