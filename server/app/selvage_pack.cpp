@@ -87,11 +87,12 @@ void add_simplify(CLI::App& app, SimplifyCommand& command) {
                   "what goes first: md (plane distance, gated by deviation), ea (edge curvature and area "
                   "change), qem (quadrics); the last two for comparison")
       ->transform(CLI::CheckedTransformer(costs, CLI::ignore_case))
-      ->default_str("md");
+      ->option_text("md|ea|qem [md]");
   simplify
       .add_option("--flip", command.options.flip,
                   "how turned triangles are prevented: normal, or concave, the usual one of ea")
-      ->transform(CLI::CheckedTransformer(flips, CLI::ignore_case));
+      ->transform(CLI::CheckedTransformer(flips, CLI::ignore_case))
+      ->option_text("normal|concave");
   simplify.add_flag("--json", command.json, "print the result as JSON");
   simplify.footer(
       "Non-manifold places stay as they are. Vertices that are kept keep their coordinates and their order.\n"

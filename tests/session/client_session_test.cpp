@@ -2,6 +2,7 @@
 //
 // The client's session against servers that lie, stall or break; and both sessions over a connection whose
 // nth operation fails.
+#include <boost/asio/detached.hpp>
 #include <gtest/gtest.h>
 
 #include "tests/session/session_harness.h"

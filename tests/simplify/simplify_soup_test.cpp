@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "server/simplify/simplify_soup.h"
 
+#include <random>
+
 #include <gtest/gtest.h>
 
 #include "tests/simplify/simplify_support.h"
@@ -42,6 +44,39 @@ TEST(SimplifySoup, LeavesNonManifoldPlacesWhereTheyAre) {
   EXPECT_EQ(result.soup.triangles.size(), 200u);
   EXPECT_EQ(result.soup.positions[0], (Vec3{1, 0, 0}));
   EXPECT_TRUE(border_edges(result.soup.triangles).empty());
+}
+
+/// Random triangles over few vertices: everything that can be wrong with connectivity is.
+TriangleSoup random_soup(std::uint32_t seed) {
+  std::mt19937 random(seed);
+  const std::uint32_t vertices = 3 + random() % 30, triangles = 1 + random() % 120;
+  TriangleSoup soup;
+  for (std::uint32_t v = 0; v < vertices; ++v) {
+    soup.positions.push_back({double(random() % 8), double(random() % 8), double(random() % 8)});
+  }
+  const auto any = [&] { return static_cast<VertexId>(random() % vertices); };
+  for (std::uint32_t t = 0; t < triangles; ++t) {
+    const VertexId a = any(), b = any();
+    soup.triangles.push_back({a, b, any()});
+  }
+  return soup;
+}
+
+TEST(SimplifySoup, TakesAnyTriangles) {
+  for (std::uint32_t seed = 0; seed < 300; ++seed) {
+    const TriangleSoup soup = random_soup(seed);
+    const auto result = simplify_soup(soup, {0});
+    if (!result) continue;  // no triangle without a repeated index
+    for (const Triangle& t : result->soup.triangles) {
+      for (const VertexId v : t) ASSERT_LT(v, result->soup.positions.size());
+      ASSERT_TRUE(t[0] != t[1] && t[1] != t[2] && t[2] != t[0]);
+    }
+    // The positions are the file's, in its order.
+    std::size_t at = 0;
+    for (const Vec3& p : soup.positions)
+      at += at < result->soup.positions.size() && result->soup.positions[at] == p;
+    EXPECT_EQ(at, result->soup.positions.size()) << "seed " << seed;
+  }
 }
 
 TEST(SimplifySoup, RefusesWhatRepairRefuses) { EXPECT_FALSE(simplify_soup({}, {10})); }
