@@ -8,7 +8,7 @@
 #include <functional>
 
 #include "client/decode/region_decoder.h"
-#include "common/codec/predictor.h"
+#include "common/codec/geometry_walk.h"
 #include "common/codec/region_format.h"
 #include "server/encode/attribute_encoder.h"
 #include "server/encode/model_encoder.h"
@@ -116,16 +116,17 @@ std::int16_t fixed(double value, double scale) {
   return static_cast<std::int16_t>(std::lround(std::clamp(value * scale, -16000.0, 16000.0)));
 }
 
-/// Calls visit(predictor, surroundings, position) for every vertex that something predicts; `visit` appends.
+/// Calls visit(walk, surroundings, position) for every vertex that something predicts; `visit` places it.
 void for_each_vertex(const TrainingRegion& region, const CodecTables& tables, const Blends& blends,
-                     const std::function<void(Predictor&, const Surroundings&, const GridPoint&)>& visit) {
-  Predictor predictor(region.mesh.table, tables, blends, region.box.extent());
-  for (const GridPoint& position : region.mesh.positions) {
-    const Surroundings around = predictor.look_around();
+                     const std::function<void(GeometryWalk&, const Surroundings&, const GridPoint&)>& visit) {
+  if (region.mesh.table.triangle_count() == 0) return;
+  GeometryWalk walk(region.mesh.table, tables, blends, region.box.extent());
+  for (Surroundings around; walk.next_vertex(around);) {
+    const GridPoint& position = region.mesh.positions[walk.old_number()];
     if (around.neighbours == 0) {
-      predictor.append_first(position);
+      walk.place_first(position);
     } else {
-      visit(predictor, around, position);
+      visit(walk, around, position);
     }
   }
 }
@@ -136,14 +137,14 @@ std::array<ShapeWeights, kShapeClasses> fit_shape(const TrainingSet& set, const 
   {
     for (const TrainingRegion& region : set.regions) {
       for_each_vertex(
-          region, start, {},
-          [&](Predictor& predictor, const Surroundings& around, const GridPoint& position) {
+          region, start, {}, [&](GeometryWalk& walk, const Surroundings& around, const GridPoint& position) {
             double error = 0;
             if (around.parallelograms > 0) {
               // At least a 32nd of the reach: where all is flat and regular, one outlier would decide
               // everything.
               const double expected =
-                  std::exp2(std::max({around.sizes[0], around.sizes[2], around.sizes[3] - 40}) / 8.0) / 4;
+                  std::exp2(std::max<int>({around.sizes[0], around.sizes[2], around.sizes[3] - 40}) / 8.0) /
+                  4;
               for (int axis = 0; axis < 3; ++axis) {
                 const double parallelogram = (around.edge[axis] + around.beyond[axis]) / 16.0;
                 const double y = position[axis] - around.base[axis] - parallelogram;
@@ -153,8 +154,8 @@ std::array<ShapeWeights, kShapeClasses> fit_shape(const TrainingSet& set, const 
                     1 / ((expected + 1) * (expected + std::abs(y) + 1)));
               }
             }
-            predictor.append(around, position, static_cast<std::uint32_t>(error),
-                             static_cast<std::uint32_t>(error / 2));
+            walk.place(around, position, static_cast<std::uint32_t>(error),
+                       static_cast<std::uint32_t>(error / 2));
           });
     }
   }
@@ -172,27 +173,26 @@ std::array<std::array<SizeWeights, 3>, kSizeClasses> fit_size(const TrainingSet&
                                                               const CodecTables& start) {
   std::array<std::array<LeastSquares<kSizeFeatures>, 3>, kSizeClasses> fits;
   const auto learn = [&](unsigned size_class, unsigned axis,
-                         const std::array<std::int32_t, kSizeFeatures>& features, std::uint32_t magnitude) {
+                         const std::array<std::int16_t, kSizeFeatures>& features, std::uint32_t magnitude) {
     std::array<double, kSizeFeatures> x;
     std::copy(features.begin(), features.end(), x.begin());
     fits[size_class][axis].add(x, 8 * std::log2(4.0 * magnitude + 2), 1);
   };
   for (const TrainingRegion& region : set.regions) {
     for_each_vertex(
-        region, start, {}, [&](Predictor& predictor, const Surroundings& around, const GridPoint& position) {
-          const GridPoint residual = position - predictor.predict(around);
+        region, start, {}, [&](GeometryWalk& walk, const Surroundings& around, const GridPoint& position) {
+          const GridPoint residual = position - walk.predict(around);
           const unsigned d = around.normal_axis;
           const std::int32_t u = residual[static_cast<int>((d + 1) % 3)],
                              w = residual[static_cast<int>((d + 2) % 3)];
-          const std::int32_t tangent = predictor.tangent_residual(around, u, w);
+          const std::int32_t tangent = walk.tangent_residual(around, u, w);
           const std::int32_t last = residual[static_cast<int>(d)] - tangent;
-          learn(around.size_class, 0, predictor.size_features(around, 0, 0, 0), magnitude_of(u));
-          learn(around.size_class, 1, predictor.size_features(around, magnitude_of(u), 0, 0),
-                magnitude_of(w));
+          learn(around.size_class, 0, walk.size_features(around, 0, 0, 0), magnitude_of(u));
+          learn(around.size_class, 1, walk.size_features(around, magnitude_of(u), 0, 0), magnitude_of(w));
           learn(around.size_class, 2,
-                predictor.size_features(around, magnitude_of(u), magnitude_of(w), magnitude_of(tangent)),
+                walk.size_features(around, magnitude_of(u), magnitude_of(w), magnitude_of(tangent)),
                 magnitude_of(last));
-          predictor.append(around, position, magnitude_of(u) + magnitude_of(w), magnitude_of(last));
+          walk.place(around, position, magnitude_of(u) + magnitude_of(w), magnitude_of(last));
         });
   }
   std::array<std::array<SizeWeights, 3>, kSizeClasses> weights;
@@ -318,7 +318,9 @@ TrainedTables train(const std::vector<const Model*>& models) {
   std::vector<Sequence> parts;
   for (const TrainingRegion& region : set.regions) {
     EntropyEncoder out;
-    encode_attributes(region.mesh, region.box, tables.view(), out);
+    if (region.mesh.table.triangle_count() == 0) continue;
+    encode_positions(region.mesh.table, region.mesh.positions, region.box, tables.view(), out);
+    encode_turned_and_anchors(region.mesh, out);
     Sequence sequence = region.connectivity;
     sequence.insert(sequence.end(), out.tokens().begin(), out.tokens().end());
     parts.push_back(std::move(sequence));

@@ -18,10 +18,12 @@ Result<void> verify_regions(const Pack& pack) {
       const std::string where = "region " + std::to_string(id);
       if (auto ok = check_part(level.part, pack.part(level.part)); !ok) return forward_error(ok, where);
       const RegionEntry& entry = directory.regions[id];
-      auto mesh = decode_region(pack.part(level.part), {.vertices = level.vertices,
-                                                        .triangles = level.triangles,
-                                                        .box_min = entry.box_min,
-                                                        .box_max = entry.box_max});
+      auto mesh = decode_region(pack.part(level.part),
+                                {.vertices = level.vertices,
+                                 .triangles = level.triangles,
+                                 .box_min = entry.box_min,
+                                 .box_max = entry.box_max,
+                                 .exact = directory.is_exact ? std::optional(directory.grid) : std::nullopt});
       if (!mesh) return forward_error(mesh, where);
       if (auto ok = check_corner_table(mesh->table); !ok) return forward_error(ok, where);
     }

@@ -20,11 +20,8 @@ std::uint32_t magnitude_of(std::int32_t residual) { return static_cast<std::uint
 std::int32_t decode_residual(Decoder& in, unsigned model, const SizeClass& size) {
   std::uint32_t coarse = in.symbol(model);
   if (coarse == kMagnitudeEscape) coarse += std::min(in.number(region_model::kExcess), kMaxResidual);
-  if (coarse == 0 && size.raw_low_bits == 0) return 0;
   if (coarse > kMaxResidual >> size.raw_low_bits) return static_cast<std::int32_t>(kMaxResidual);
-  const std::uint32_t magnitude = (coarse << size.raw_low_bits) + in.bits(size.raw_low_bits);
-  const bool is_negative = magnitude != 0 && in.bits(1) != 0;
-  return is_negative ? -static_cast<std::int32_t>(magnitude) : static_cast<std::int32_t>(magnitude);
+  return in.signed_bits(coarse, size.raw_low_bits);
 }
 
 bool decode_blends(Decoder& in, Blends& blends) {
@@ -35,42 +32,29 @@ bool decode_blends(Decoder& in, Blends& blends) {
          blends.tangent <= Blends::kMaxTangent;
 }
 
-// In step with encode_positions.
-bool decode_positions(Decoder& in, const CornerTable& table, const GridBox& box, const CodecTables& tables,
-                      std::vector<GridPoint>& positions) {
-  Blends blends;
-  if (!decode_blends(in, blends)) return false;
-  Predictor predictor(table, tables, blends, box.extent());
-  for (VertexId v = 0; v < table.vertex_count(); ++v) {
-    const Surroundings around = predictor.look_around();
-    GridPoint position;
-    if (around.neighbours == 0) {
-      for (int axis = 0; axis < 3; ++axis)
-        position[axis] = box.low[axis] + static_cast<std::int32_t>(in.bits(box.offset_bits(axis)));
-      if (!box.holds(position) || !in.ok()) return false;
-      predictor.append_first(position);
-      continue;
-    }
-    const unsigned d = around.normal_axis;
-    const SizeClass first = predictor.size_class(around, 0, predictor.size_features(around, 0, 0, 0));
-    const std::int32_t u = decode_residual(in, magnitude_model(0, around, first), first);
-    const SizeClass second =
-        predictor.size_class(around, 1, predictor.size_features(around, magnitude_of(u), 0, 0));
-    const std::int32_t w = decode_residual(in, magnitude_model(1, around, second), second);
-    const std::int32_t tangent = predictor.tangent_residual(around, u, w);
-    const SizeClass third = predictor.size_class(
-        around, 2, predictor.size_features(around, magnitude_of(u), magnitude_of(w), magnitude_of(tangent)));
-    const std::int32_t last = decode_residual(in, magnitude_model(2, around, third), third);
-    GridPoint residual;
-    residual[static_cast<int>((d + 1) % 3)] = u;
-    residual[static_cast<int>((d + 2) % 3)] = w;
-    residual[static_cast<int>(d)] = last + tangent;
-    position = predictor.predict(around) + residual;
-    if (!box.holds(position) || !in.ok()) return false;
-    predictor.append(around, position, magnitude_of(u) + magnitude_of(w), magnitude_of(last));
-  }
-  positions = predictor.positions();
-  return true;
+bool decode_offset(Decoder& in, const GridBox& box, GridPoint& position) {
+  for (int axis = 0; axis < 3; ++axis)
+    position[axis] = box.low[axis] + static_cast<std::int32_t>(in.bits(box.offset_bits(axis)));
+  return box.holds(position) && in.ok();
+}
+
+/// A position that something predicts.
+GridPoint decode_position(Decoder& in, GeometryWalk& walk, const Surroundings& around) {
+  const unsigned d = around.normal_axis;
+  const SizeClass first = walk.size_class(around, 0, 0, 0, 0);
+  const std::int32_t u = decode_residual(in, magnitude_model(0, around, first), first);
+  const SizeClass second = walk.size_class(around, 1, magnitude_of(u), 0, 0);
+  const std::int32_t w = decode_residual(in, magnitude_model(1, around, second), second);
+  const std::int32_t tangent = walk.tangent_residual(around, u, w);
+  const SizeClass third = walk.size_class(around, 2, magnitude_of(u), magnitude_of(w), magnitude_of(tangent));
+  const std::int32_t last = decode_residual(in, magnitude_model(2, around, third), third);
+  const std::int32_t n = last + tangent;
+  GridPoint position = walk.predict(around);
+  position.x += d == 0 ? n : d == 1 ? w : u;
+  position.y += d == 0 ? u : d == 1 ? n : w;
+  position.z += d == 0 ? w : d == 1 ? u : n;
+  walk.place(around, position, magnitude_of(u) + magnitude_of(w), magnitude_of(last));
+  return position;
 }
 
 std::vector<bool> decode_turned(Decoder& in, std::uint32_t triangles) {
@@ -101,11 +85,38 @@ bool decode_anchors(Decoder& in, RegionMesh& mesh) {
 
 }  // namespace
 
-Result<void> decode_attributes(Decoder& in, const RegionPartHeader& header, const DecodeLimits& expected,
-                               const CodecTables& tables, RegionMesh& mesh) {
-  const GridBox box{expected.box_min, expected.box_max};
-  if (!decode_positions(in, mesh.table, box, tables, mesh.positions))
-    return corrupt("a position outside the box");
+// In step with encode_positions.
+Result<void> decode_positions(Decoder& in, const GridBox& box, const CodecTables& tables, RegionMesh& mesh) {
+  Blends blends;
+  if (!decode_blends(in, blends)) return corrupt("impossible blends");
+  GeometryWalk walk(std::move(mesh.table), tables, blends, box.extent());
+  for (Surroundings around; walk.next_vertex(around);) {
+    GridPoint position;
+    bool is_sound;
+    if (around.neighbours == 0) {
+      is_sound = decode_offset(in, box, position);
+      walk.place_first(position);
+    } else {
+      position = decode_position(in, walk, around);
+      is_sound = box.holds(position) && in.ok();
+    }
+    if (!is_sound) return corrupt("a position outside the box");
+  }
+  mesh.table = walk.take_table();
+  mesh.positions = walk.positions();
+  return {};
+}
+
+Result<void> decode_loose_positions(Decoder& in, std::uint32_t count, const GridBox& box, RegionMesh& mesh) {
+  for (std::uint32_t v = 0; v < count; ++v) {
+    GridPoint position;
+    if (!decode_offset(in, box, position)) return corrupt("a position outside the box");
+    mesh.positions.push_back(position);
+  }
+  return {};
+}
+
+Result<void> decode_turned_and_anchors(Decoder& in, const RegionPartHeader& header, RegionMesh& mesh) {
   if (header.has_turned) mesh.is_turned = decode_turned(in, mesh.table.triangle_count());
   if (header.has_anchors && !decode_anchors(in, mesh)) return corrupt("impossible anchors");
   if (!in.is_finished()) return corrupt("bytes left over or missing");

@@ -1,15 +1,23 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "client/decode/region_decoder.h"
+#include "common/base/result.h"
 #include "common/codec/region_format.h"
+#include "common/codec/region_mesh.h"
 #include "common/coding/entropy_decoder.h"
 
 namespace selvage {
 
-/// The mirror of server/encode/attribute_encoder.h. Fills positions, turned bits and anchors of `mesh`, whose
-/// table and loops are there already; a loose region's are made by decode_loose_vertices.
-Result<void> decode_attributes(EntropyDecoder<2>& in, const RegionPartHeader& header,
-                               const DecodeLimits& expected, const CodecTables& tables, RegionMesh& mesh);
+// The mirrors of server/encode/attribute_encoder.h.
+
+/// Numbers the vertices of `mesh.table` in coding order and fills the positions.
+Result<void> decode_positions(EntropyDecoder<2>& in, const GridBox& box, const CodecTables& tables,
+                              RegionMesh& mesh);
+/// `count` positions that no triangle connects; each must cost bits, or the caller has bounded it.
+Result<void> decode_loose_positions(EntropyDecoder<2>& in, std::uint32_t count, const GridBox& box,
+                                    RegionMesh& mesh);
+/// Fills turned bits and anchors. Needs the boundary loops; checks that the stream ends here.
+Result<void> decode_turned_and_anchors(EntropyDecoder<2>& in, const RegionPartHeader& header,
+                                       RegionMesh& mesh);
 
 }  // namespace selvage

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "client/decode/region_decoder.h"
 
+#include <algorithm>
 #include <numeric>
 
 #include "client/decode/attribute_decoder.h"
 #include "client/decode/connectivity_decoder.h"
+#include "client/decode/exact_decoder.h"
 #include "common/codec/region_format.h"
 #include "common/coding/entropy_decoder.h"
 
@@ -31,23 +33,33 @@ Result<RegionMesh> decode_region(std::span<const std::byte> bytes, const DecodeL
   if (!header) return forward_error(header);
   EntropyDecoder<2> in(bytes.subspan(1), tables.region);
 
-  RegionMesh mesh;
-  if (expected.triangles > 0) {
-    // A symbol may be cheap but is not free: so many triangles cannot come from so few bytes.
-    if (expected.triangles > kMaxSymbolsPerByte * bytes.size())
-      return fail(ErrorCode::BadStream, "region part: fewer bytes than its triangles take");
-    auto table = decode_connectivity(in, expected.triangles);
-    if (!table) return forward_error(table);
-    mesh.table = std::move(*table);
-    mesh.loops = find_boundary_loops(mesh.table);
-  } else if (!decode_loose_vertices(in, expected.vertices, mesh)) {
-    return fail(ErrorCode::BadStream, "region part: impossible number of loose vertices");
-  }
-  if (mesh.table.triangle_count() != expected.triangles || mesh.table.vertex_count() != expected.vertices) {
+  const GridBox box{expected.box_min, expected.box_max};
+  const auto mismatch = [] {
     return fail(ErrorCode::BadStream,
                 "region part: not the vertices and triangles that the directory promises");
+  };
+  // A symbol may be cheap but is not free: so much cannot come from so few bytes.
+  if (std::max(expected.triangles, expected.vertices) > kMaxSymbolsPerByte * bytes.size()) return mismatch();
+  RegionMesh mesh;
+  if (expected.triangles > 0) {
+    auto table = decode_connectivity(in, expected.triangles);
+    if (!table) return forward_error(table);
+    if (table->triangle_count() != expected.triangles) return mismatch();
+    mesh.table = std::move(*table);
+    if (auto ok = decode_positions(in, box, tables, mesh); !ok) return forward_error(ok);
+    if (mesh.table.vertex_count() != expected.vertices) return mismatch();
+    mesh.loops = find_boundary_loops(mesh.table);
+  } else {
+    if (!decode_loose_vertices(in, expected.vertices, mesh)) return mismatch();
+    if (auto ok = decode_loose_positions(in, expected.vertices, box, mesh); !ok) return forward_error(ok);
   }
-  if (auto ok = decode_attributes(in, *header, expected, tables, mesh); !ok) return forward_error(ok);
+  if (header->has_exact != expected.exact.has_value()) return mismatch();
+  if (expected.exact) {
+    auto exact = decode_exact(mesh.positions, *expected.exact, in);
+    if (!exact) return forward_error(exact);
+    mesh.exact = std::move(*exact);
+  }
+  if (auto ok = decode_turned_and_anchors(in, *header, mesh); !ok) return forward_error(ok);
   return mesh;
 }
 

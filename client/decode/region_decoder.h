@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 
 #include "common/base/result.h"
 #include "common/codec/codec_tables.h"
 #include "common/codec/region_mesh.h"
+#include "common/mesh/grid.h"
 
 namespace selvage {
 
@@ -15,6 +17,7 @@ struct DecodeLimits {
   std::uint32_t vertices = 0;
   std::uint32_t triangles = 0;
   GridPoint box_min, box_max;  ///< of all positions, inclusive, within [0, 2^24)
+  std::optional<Grid> exact;   ///< the grid of a bit-exact model, nothing for others
 };
 
 /// Decodes one region from `bytes`. Needs nothing from other regions. Safe on hostile input: reads only

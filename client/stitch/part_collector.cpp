@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "client/stitch/part_collector.h"
 
+#include <optional>
 #include <string>
 
 #include "client/decode/bundle_decoder.h"
@@ -21,10 +22,12 @@ Result<void> PartCollector::add_region(RegionId region, std::uint8_t level,
                                        std::span<const std::byte> bytes) {
   const RegionEntry& owner = directory_.regions[region];
   const LevelEntry& entry = owner.levels[level];
-  auto mesh = decode_region(bytes, {.vertices = entry.vertices,
-                                    .triangles = entry.triangles,
-                                    .box_min = owner.box_min,
-                                    .box_max = owner.box_max});
+  auto mesh =
+      decode_region(bytes, {.vertices = entry.vertices,
+                            .triangles = entry.triangles,
+                            .box_min = owner.box_min,
+                            .box_max = owner.box_max,
+                            .exact = directory_.is_exact ? std::optional(directory_.grid) : std::nullopt});
   if (!mesh) return forward_error(mesh);
   const std::scoped_lock lock(mutex_);
   return stitcher_.add_region(region, std::move(*mesh));

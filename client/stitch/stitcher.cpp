@@ -41,6 +41,12 @@ void append_triangle(TriangleSoup& soup, Triangle triangle, bool is_turned) {
   soup.triangles.push_back(triangle);
 }
 
+Vec3 position_of(const RegionMesh& region, VertexId v, const Grid& grid) {
+  if (region.exact.empty()) return grid.position(region.positions[v]);
+  const ExactPosition& exact = region.exact[v];
+  return {exact[0], exact[1], exact[2]};
+}
+
 }  // namespace
 
 Result<void> Stitcher::add_region(RegionId region, RegionMesh mesh) {
@@ -74,7 +80,7 @@ StitchedMesh Stitcher::mesh() const {
   for (const auto& [id, region] : regions_) {
     const std::vector<VertexId>& vertex = map.of(id);
     for (VertexId v = 0; v < vertex.size(); ++v) {
-      stitched.soup.positions[vertex[v]] = directory_.grid.position(region.positions[v]);
+      stitched.soup.positions[vertex[v]] = position_of(region, v, directory_.grid);
       RegionId& region_of = stitched.region_of_vertex[vertex[v]];
       region_of = std::min(region_of, id);
     }

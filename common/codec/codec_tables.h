@@ -39,6 +39,9 @@ enum Field : unsigned {
   kAnchorGap,
   kGroupStep,
   kLooseCount,
+  kExact,  ///< three: by the symbol before on the same axis
+  kExact1,
+  kExact2,
   kCount
 };
 }  // namespace region_model
@@ -60,14 +63,17 @@ enum Field : unsigned {
 };
 }  // namespace bundle_model
 
-/// Corrections of the parallelogram prediction, in 1024ths; see predictor.h for what they weigh.
+/// Corrections of the parallelogram prediction, in 1024ths; see geometry_walk.h for what they weigh.
 struct ShapeWeights {
   std::int16_t beyond = 0, ring = 0, trend = 0;
 };
 inline constexpr unsigned kShapeClasses = 64;
 
-/// The logarithm of a residual's size as a linear function of other logarithms, in 256ths.
+/// The logarithm of a residual's size as a linear function of other logarithms, in 256ths: tangential and
+/// normal residuals nearby, spread, reach, recent tangential and normal residuals, a constant, and the
+/// residuals of the same vertex that are known already: first axis, second axis, tangent plane.
 inline constexpr unsigned kSizeFeatures = 10;
+inline constexpr unsigned kCommonSizeFeatures = 7;
 using SizeWeights = std::array<std::int16_t, kSizeFeatures>;
 inline constexpr unsigned kSizeClasses = 4;  ///< parallelograms: 0, 1, 2, 3 and more
 

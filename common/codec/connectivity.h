@@ -13,20 +13,15 @@
 namespace selvage {
 
 struct Connectivity {
-  CornerTable table;  ///< vertices numbered in the order their positions are coded in
+  CornerTable table;
   /// Corners keep their place: corner k of triangle t was 3 * grown + k. Empty if no triangle was dropped.
   std::vector<TriangleId> grown_of_triangle;
 };
 
 /// A region's boundary loops other than its outer one are coded as if closed by a fan around a virtual
-/// vertex. Takes those fans away again and numbers vertices in coding order. Nothing if the virtual vertices
+/// vertex. Takes those fans away again. Nothing if the virtual vertices
 /// are not ascending, out of range, or leave a vertex with two fans: the stream is corrupt.
 std::optional<Connectivity> finish_connectivity(CornerTable grown,
                                                 std::span<const VertexId> virtual_vertices);
-
-/// The order in which positions are coded: the vertex that most triangles already predict comes first, in two
-/// classes (two and more, one), each first come first served; as good as a full priority queue and linear.
-/// Components one after another, each from its first triangle.
-std::vector<VertexId> geometry_order(const CornerTable& table);
 
 }  // namespace selvage

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // The region part's layout (docs/FORMAT.md, "Region part"): one byte of version and flags, then everything
-// else in one entropy-coded span of two states: connectivity, blends, positions, turned bits, anchors.
+// else in one entropy-coded span of two states: connectivity, blends, positions, the floats behind them,
+// turned bits, anchors.
 //
-//   u8      low 4 bits kRegionPartVersion, then has_turned, has_anchors, two reserved (0)
+//   u8      low 4 bits kRegionPartVersion, then has_turned, has_anchors, has_exact, one reserved (0)
 //   bytes   entropy coded to the end of the part
 //
 // A part of a region without triangles holds loose vertices: their number stands in place of connectivity.
@@ -14,7 +15,7 @@
 
 #include "common/base/result.h"
 #include "common/codec/codec_tables.h"
-#include "common/codec/predictor.h"
+#include "common/codec/geometry_walk.h"
 #include "common/coding/byte_io.h"
 #include "common/mesh/boundary_loops.h"
 
@@ -25,6 +26,7 @@ inline constexpr std::uint8_t kRegionPartVersion = 1;
 struct RegionPartHeader {
   bool has_turned = false;
   bool has_anchors = false;
+  bool has_exact = false;
 };
 
 void write_region_header(ByteWriter& out, const RegionPartHeader& header);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/codec/exact.h"
 #include "common/mesh/boundary_loops.h"
 #include "common/mesh/corner_table.h"
 
@@ -21,6 +22,7 @@ struct Anchor {
 struct RegionMesh {
   CornerTable table;
   std::vector<GridPoint> positions;  ///< by vertex
+  std::vector<ExactPosition> exact;  ///< by vertex, in a bit-exact model; else empty
   std::vector<bool> is_turned;       ///< by triangle: the file had it the other way round. Empty: none is
   std::vector<Anchor> anchors;       ///< boundary vertices by boundary index, then others by number
   BoundaryLoops loops;               ///< what (region, boundary index) counts in; follows from `table`

@@ -48,8 +48,20 @@ class EntropyDecoder {
     const SymbolRange range = models_.range(model, symbol);
     models_.update(model, symbol);
     state = range.frequency * (state >> kProbabilityBits) + slot - range.start;
-    if (state < kStateLow) state = state << 16 | word();
+    renormalise(state);
     return symbol;
+  }
+
+  /// A magnitude whose upper part is `coarse`, the `count` < 32 bits below it, and a sign unless all are 0.
+  std::int32_t signed_bits(std::uint32_t coarse, int count) {
+    if (filled_ <= count) refill();
+    const auto low = static_cast<std::uint32_t>(buffer_) & ((1u << count) - 1);
+    const auto magnitude = static_cast<std::int32_t>(coarse << count | low);
+    const int has_sign = magnitude != 0;
+    const auto sign = static_cast<std::int32_t>(buffer_ >> count) & has_sign;
+    buffer_ >>= count + has_sign;
+    filled_ -= count + has_sign;
+    return (magnitude ^ -sign) + sign;
   }
 
   /// `count` <= 32.
@@ -83,6 +95,19 @@ class EntropyDecoder {
   }
 
  private:
+  /// Without a branch on the state, which is as good as random; the branch on what is left is not.
+  void renormalise(std::uint32_t& state) {
+    if (end_ - at_ < 2) {
+      if (state < kStateLow) state = state << 16 | word();
+      return;
+    }
+    const std::uint32_t next = std::to_integer<std::uint32_t>(at_[0]) | std::to_integer<std::uint32_t>(at_[1])
+                                                                            << 8;
+    const bool is_low = state < kStateLow;
+    state = is_low ? state << 16 | next : state;
+    at_ += is_low ? 2 : 0;
+  }
+
   std::uint32_t word() {
     if (end_ - at_ < 2) {
       overran_ = true;

@@ -117,15 +117,18 @@ RegionEntry read_entry(ByteReader& in, RegionId id, const Grid& grid) {
   return entry;
 }
 
-void write_grid(ByteWriter& out, const Grid& grid) {
-  out.u8(static_cast<std::uint8_t>(grid.bits));
+/// The top bit of the first byte marks bit-exact models.
+void write_grid(ByteWriter& out, const Grid& grid, bool is_exact) {
+  out.u8(static_cast<std::uint8_t>(grid.bits | is_exact << 7));
   for (int axis = 0; axis < 3; ++axis) out.f64(grid.origin[axis]);
   out.f64(grid.step);
 }
 
-Grid read_grid(ByteReader& in) {
+Grid read_grid(ByteReader& in, bool& is_exact) {
   Grid grid;
-  grid.bits = in.u8();
+  const std::uint8_t first = in.u8();
+  is_exact = first >> 7 != 0;
+  grid.bits = first & 0x7F;
   for (int axis = 0; axis < 3; ++axis) grid.origin[axis] = in.f64();
   grid.step = in.f64();
   const bool is_sound = grid.bits >= kMinGridBits && grid.bits <= kMaxGridBits &&
@@ -231,7 +234,7 @@ void write_summary(ByteWriter& out, Directory& directory, const std::vector<Page
     out.string(key);
     out.string(value);
   }
-  write_grid(out, directory.grid);
+  write_grid(out, directory.grid, directory.is_exact);
   visit_source_counts(directory.source, [&](std::uint32_t count) { out.varint(count); });
   out.varint(directory.vertices);
   out.varint(directory.triangles);
@@ -280,7 +283,7 @@ Summary read_summary(ByteReader& in, Directory& directory) {
     std::string key = in.string(kMaxTextLength);
     directory.metadata[std::move(key)] = in.string(kMaxTextLength);
   }
-  directory.grid = read_grid(in);
+  directory.grid = read_grid(in, directory.is_exact);
   visit_source_counts(directory.source, [&](std::uint32_t& count) { count = in.varint32(); });
   directory.vertices = in.varint32();
   directory.triangles = in.varint32();

@@ -84,6 +84,7 @@ struct Directory {
   std::string units;  ///< as the user named them; empty if unknown
   std::map<std::string, std::string> metadata;
   Grid grid;
+  bool is_exact = false;  ///< region parts hold the floats behind the grid points
   SourceCounts source;
   std::uint32_t vertices = 0;            ///< of the stitched mesh
   std::uint32_t triangles = 0;           ///< of the stitched mesh

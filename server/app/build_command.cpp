@@ -106,8 +106,13 @@ Result<void> run(const BuildCommand& command) {
   const std::string name = command.name.empty() ? command.segmentation.model.stem().string() : command.name;
   auto parts = command.segmentation.load_parts(*file);
   if (!parts) return forward_error(parts);
-  const IngestOptions options{name,         command.units,     command.metadata,
-                              command.bits, std::move(*parts), command.segmentation.segment};
+  const IngestOptions options{name,
+                              command.units,
+                              command.metadata,
+                              command.bits,
+                              std::move(*parts),
+                              command.segmentation.segment,
+                              command.lossless};
   ProgressLine line;
   auto model =
       ingest(file->soup, options, threaded_for(command.threads), [&](const std::string& stage, double done) {

@@ -17,6 +17,7 @@ struct BuildCommand {
   std::string name, units;      ///< name empty: the model's stem
   std::map<std::string, std::string> metadata;
   int bits = 14;
+  bool lossless = false;
   unsigned threads = 0;
   bool json = false;
   SegmentationOptions segmentation;

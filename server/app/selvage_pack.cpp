@@ -28,6 +28,7 @@ void add_build(CLI::App& app, BuildCommand& command) {
   build.add_option("--store", command.store, "put the pack into this folder, which a server serves")
       ->excludes(pack)
       ->check(CLI::ExistingDirectory);
+  build.add_flag("--lossless", command.lossless, "keep float32 positions bit for bit");
   build.add_option("--bits", command.bits, "grid planes along the longest side: 2^bits")
       ->check(CLI::Range(8, 24))
       ->capture_default_str();

@@ -22,37 +22,9 @@ void encode_residual(EntropyEncoder& out, unsigned model, const SizeClass& size,
   if (magnitude != 0) out.bits(residual < 0, 1);
 }
 
-// In step with decode_positions.
-void encode_positions(EntropyEncoder& out, const RegionMesh& mesh, const GridBox& box,
-                      const CodecTables& tables) {
-  const Blends blends = choose_blends(mesh, box, tables);
-  out.symbol(region_model::kShape, blends.shape);
-  out.symbol(region_model::kTrend, blends.trend);
-  out.symbol(region_model::kTangent, blends.tangent);
-  Predictor predictor(mesh.table, tables, blends, box.extent());
-  for (const GridPoint& position : mesh.positions) {
-    const Surroundings around = predictor.look_around();
-    if (around.neighbours == 0) {
-      for (int axis = 0; axis < 3; ++axis)
-        out.bits(static_cast<std::uint32_t>(position[axis] - box.low[axis]), box.offset_bits(axis));
-      predictor.append_first(position);
-      continue;
-    }
-    const GridPoint residual = position - predictor.predict(around);
-    const unsigned d = around.normal_axis;
-    const auto u = residual[static_cast<int>((d + 1) % 3)], w = residual[static_cast<int>((d + 2) % 3)];
-    const SizeClass first = predictor.size_class(around, 0, predictor.size_features(around, 0, 0, 0));
-    encode_residual(out, magnitude_model(0, around, first), first, u);
-    const SizeClass second =
-        predictor.size_class(around, 1, predictor.size_features(around, magnitude_of(u), 0, 0));
-    encode_residual(out, magnitude_model(1, around, second), second, w);
-    const std::int32_t tangent = predictor.tangent_residual(around, u, w);
-    const std::int32_t last = residual[static_cast<int>(d)] - tangent;
-    const SizeClass third = predictor.size_class(
-        around, 2, predictor.size_features(around, magnitude_of(u), magnitude_of(w), magnitude_of(tangent)));
-    encode_residual(out, magnitude_model(2, around, third), third, last);
-    predictor.append(around, position, magnitude_of(u) + magnitude_of(w), magnitude_of(last));
-  }
+void encode_offset(EntropyEncoder& out, const GridPoint& position, const GridBox& box) {
+  for (int axis = 0; axis < 3; ++axis)
+    out.bits(static_cast<std::uint32_t>(position[axis] - box.low[axis]), box.offset_bits(axis));
 }
 
 void encode_turned(EntropyEncoder& out, const std::vector<bool>& is_turned) {
@@ -80,9 +52,45 @@ void encode_anchors(EntropyEncoder& out, const RegionMesh& mesh) {
 
 }  // namespace
 
-void encode_attributes(const RegionMesh& mesh, const GridBox& box, const CodecTables& tables,
-                       EntropyEncoder& out) {
-  encode_positions(out, mesh, box, tables);
+// In step with decode_positions.
+std::vector<VertexId> encode_positions(const CornerTable& table, std::span<const GridPoint> positions,
+                                       const GridBox& box, const CodecTables& tables, EntropyEncoder& out) {
+  const Blends blends = choose_blends(table, positions, box, tables);
+  out.symbol(region_model::kShape, blends.shape);
+  out.symbol(region_model::kTrend, blends.trend);
+  out.symbol(region_model::kTangent, blends.tangent);
+  GeometryWalk walk(table, tables, blends, box.extent());
+  std::vector<VertexId> order;
+  for (Surroundings around; walk.next_vertex(around);) {
+    const GridPoint& position = positions[walk.old_number()];
+    order.push_back(walk.old_number());
+    if (around.neighbours == 0) {
+      encode_offset(out, position, box);
+      walk.place_first(position);
+      continue;
+    }
+    const GridPoint residual = position - walk.predict(around);
+    const unsigned d = around.normal_axis;
+    const auto u = residual[static_cast<int>((d + 1) % 3)], w = residual[static_cast<int>((d + 2) % 3)];
+    const SizeClass first = walk.size_class(around, 0, 0, 0, 0);
+    encode_residual(out, magnitude_model(0, around, first), first, u);
+    const SizeClass second = walk.size_class(around, 1, magnitude_of(u), 0, 0);
+    encode_residual(out, magnitude_model(1, around, second), second, w);
+    const std::int32_t tangent = walk.tangent_residual(around, u, w);
+    const std::int32_t last = residual[static_cast<int>(d)] - tangent;
+    const SizeClass third =
+        walk.size_class(around, 2, magnitude_of(u), magnitude_of(w), magnitude_of(tangent));
+    encode_residual(out, magnitude_model(2, around, third), third, last);
+    walk.place(around, position, magnitude_of(u) + magnitude_of(w), magnitude_of(last));
+  }
+  return order;
+}
+
+void encode_loose_positions(std::span<const GridPoint> positions, const GridBox& box, EntropyEncoder& out) {
+  for (const GridPoint& position : positions) encode_offset(out, position, box);
+}
+
+void encode_turned_and_anchors(const RegionMesh& mesh, EntropyEncoder& out) {
   encode_turned(out, mesh.is_turned);
   if (!mesh.anchors.empty()) encode_anchors(out, mesh);
 }

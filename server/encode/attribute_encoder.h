@@ -1,15 +1,24 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "common/codec/region_format.h"
 #include "common/codec/region_mesh.h"
 #include "common/coding/entropy_encoder.h"
 
 namespace selvage {
 
-/// Positions, turned bits and anchors of a region whose connectivity the decoder already has (docs/FORMAT.md,
-/// "Region part"). `box` holds all positions. Mirror: client/decode/attribute_decoder.h.
-void encode_attributes(const RegionMesh& mesh, const GridBox& box, const CodecTables& tables,
-                       EntropyEncoder& out);
+/// The positions of a region whose connectivity the decoder already has (docs/FORMAT.md, "Region part");
+/// `box` holds them all. Gives the vertices of `table` in the order in which the decoder will number them.
+/// Mirror: client/decode/attribute_decoder.h.
+std::vector<VertexId> encode_positions(const CornerTable& table, std::span<const GridPoint> positions,
+                                       const GridBox& box, const CodecTables& tables, EntropyEncoder& out);
+/// Positions that no triangle connects.
+void encode_loose_positions(std::span<const GridPoint> positions, const GridBox& box, EntropyEncoder& out);
+
+/// What follows the positions.
+void encode_turned_and_anchors(const RegionMesh& mesh, EntropyEncoder& out);
 
 }  // namespace selvage

@@ -16,36 +16,38 @@ std::int64_t cost_of(std::int32_t residual) {
   return log_size(2 * static_cast<std::uint64_t>(std::abs(std::int64_t{residual})));
 }
 
-std::int64_t cost_of(const std::vector<Sample>& samples, const Predictor& predictor) {
+std::int64_t cost_of(const std::vector<Sample>& samples, const GeometryWalk& walk) {
   std::int64_t cost = 0;
   for (const Sample& sample : samples) {
-    const GridPoint residual = sample.position - predictor.predict(sample.around);
+    const GridPoint residual = sample.position - walk.predict(sample.around);
     const unsigned d = sample.around.normal_axis;
     const auto u = residual[static_cast<int>((d + 1) % 3)], w = residual[static_cast<int>((d + 2) % 3)];
-    const std::int32_t last = residual[static_cast<int>(d)] - predictor.tangent_residual(sample.around, u, w);
+    const std::int32_t last = residual[static_cast<int>(d)] - walk.tangent_residual(sample.around, u, w);
     cost += cost_of(u) + cost_of(w) + cost_of(last);
   }
   return cost;
 }
 
 /// Every nth vertex that a parallelogram predicts. Surroundings do not depend on blends.
-std::vector<Sample> take_samples(const RegionMesh& mesh, const GridBox& box, const CodecTables& tables) {
+std::vector<Sample> take_samples(const CornerTable& table, std::span<const GridPoint> positions,
+                                 const GridBox& box, const CodecTables& tables) {
   constexpr std::size_t kMost = 1024;
-  const std::size_t every = mesh.positions.size() / kMost + 1;
+  const std::size_t every = positions.size() / kMost + 1;
   std::vector<Sample> samples;
-  Predictor predictor(mesh.table, tables, {}, box.extent());
-  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-    const Surroundings around = predictor.look_around();
-    if (v % every == 0 && around.parallelograms > 0) samples.push_back({around, mesh.positions[v]});
-    predictor.append(around, mesh.positions[v], 0, 0);
+  GeometryWalk walk(table, tables, {}, box.extent());
+  for (Surroundings around; walk.next_vertex(around);) {
+    const GridPoint& position = positions[walk.old_number()];
+    if (walk.count() % every == 0 && around.parallelograms > 0) samples.push_back({around, position});
+    walk.place(around, position, 0, 0);
   }
   return samples;
 }
 
 }  // namespace
 
-Blends choose_blends(const RegionMesh& mesh, const GridBox& box, const CodecTables& tables) {
-  const std::vector<Sample> samples = take_samples(mesh, box, tables);
+Blends choose_blends(const CornerTable& table, std::span<const GridPoint> positions, const GridBox& box,
+                     const CodecTables& tables) {
+  const std::vector<Sample> samples = take_samples(table, positions, box, tables);
   Blends best;
   if (samples.size() < 16) return best;
   const auto improve = [&](unsigned Blends::*blend, unsigned most) {
@@ -53,7 +55,7 @@ Blends choose_blends(const RegionMesh& mesh, const GridBox& box, const CodecTabl
     Blends tried = best;
     for (unsigned value = 0; value <= most; ++value) {
       tried.*blend = value;
-      const std::int64_t cost = cost_of(samples, Predictor(CornerTable{}, tables, tried, 0));
+      const std::int64_t cost = cost_of(samples, GeometryWalk(CornerTable{}, tables, tried, 0));
       if (cost < least) least = cost, best = tried;
     }
   };

@@ -116,6 +116,7 @@ class ModelEncoder {
     model.directory.connectivity_bytes =
         std::accumulate(connectivity_sizes.begin(), connectivity_sizes.end(), std::uint64_t{0});
     model.directory.grid = grid_;
+    model.directory.is_exact = source_.is_exact;
     model.directory.boundary_triangles =
         static_cast<std::uint32_t>(source_.partition.boundary_triangles.size());
     return model;
@@ -127,6 +128,13 @@ class ModelEncoder {
     const auto vertices = by_region_.of(region);
     cut.positions.reserve(vertices.size());
     for (VertexId v : vertices) cut.positions.push_back(grid_.quantise(source_.positions[v]));
+    if (source_.is_exact) {
+      cut.grid = grid_;
+      for (VertexId v : vertices) {
+        const Vec3& p = source_.positions[v];
+        cut.exact.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+      }
+    }
     if (!weld_group_.empty()) {
       for (VertexId v : vertices) cut.weld_groups.push_back(weld_group_[v]);
     }

@@ -26,6 +26,7 @@ struct ModelSource {
       source_of_vertex;                ///< vertices with the same source are welded again by the client
   const std::vector<bool>& is_turned;  ///< by triangle
   const Partition& partition;          ///< passes check_partition
+  bool is_exact = false;               ///< keep positions bit for bit; all of them must be floats
 };
 
 struct EncodedModel {

@@ -8,6 +8,7 @@
 #include "common/codec/region_format.h"
 #include "server/encode/attribute_encoder.h"
 #include "server/encode/connectivity_encoder.h"
+#include "server/encode/exact_encoder.h"
 
 namespace selvage {
 namespace {
@@ -21,12 +22,21 @@ BoundaryLoops loose_loops(std::uint32_t vertices) {
   return loops;
 }
 
+/// Vertices that grew and were merged away map to kNone.
 std::vector<VertexId> map_vertices(const EncodedConnectivity& connectivity, const CornerTable& source) {
-  std::vector<VertexId> source_of_vertex(connectivity.table.vertex_count());
+  std::vector<VertexId> source_of_vertex(connectivity.table.vertex_count(), kNone);
   for (CornerId c = 0; c < connectivity.table.corner_count(); ++c) {
     source_of_vertex[connectivity.table.vertex(c)] = source.vertex(connectivity.source_of_corner[c]);
   }
   return source_of_vertex;
+}
+
+/// Vertices numbered in the order of `old_of_new`.
+void renumber_vertices(CornerTable& table, std::span<const VertexId> old_of_new) {
+  std::vector<VertexId> new_of_old(table.vertex_count(), kNone);
+  for (VertexId v = 0; v < old_of_new.size(); ++v) new_of_old[old_of_new[v]] = v;
+  for (VertexId& v : table.vertex_of_corner) v = new_of_old[v];
+  table.set_corner_of_vertex(static_cast<std::uint32_t>(old_of_new.size()));
 }
 
 std::vector<bool> map_turned(const EncodedConnectivity& connectivity, const std::vector<bool>& is_turned) {
@@ -68,23 +78,40 @@ EncodedRegion encode_region(const RegionSource& source, const CodecTables& table
   RegionMesh mesh;
   if (source.table.triangle_count() > 0) {
     EncodedConnectivity connectivity = encode_connectivity(source.table, out);
-    mesh.loops = find_boundary_loops(connectivity.table);
-    encoded.source_of_vertex = map_vertices(connectivity, source.table);
+    out.mark();
+    const std::vector<VertexId> source_of_grown = map_vertices(connectivity, source.table);
+    std::vector<GridPoint> positions;
+    for (VertexId v : source_of_grown) positions.push_back(v == kNone ? GridPoint{} : source.positions[v]);
+    const std::vector<VertexId> order =
+        encode_positions(connectivity.table, positions, encoded.box, tables, out);
+    for (VertexId grown : order) encoded.source_of_vertex.push_back(source_of_grown[grown]);
     mesh.is_turned = map_turned(connectivity, source.is_turned);
     mesh.table = std::move(connectivity.table);
+    renumber_vertices(mesh.table, order);
+    mesh.loops = find_boundary_loops(mesh.table);
   } else {
+    out.number(region_model::kLooseCount, source.table.vertex_count());
+    out.mark();
+    encode_loose_positions(source.positions, encoded.box, out);
     mesh.table = source.table;
     mesh.loops = loose_loops(source.table.vertex_count());
     encoded.source_of_vertex = mesh.loops.vertices;
-    out.number(region_model::kLooseCount, source.table.vertex_count());
   }
-  out.mark();
-  for (VertexId v : encoded.source_of_vertex) mesh.positions.push_back(source.positions[v]);
   mesh.anchors = map_anchors(mesh, encoded.source_of_vertex, source.weld_groups);
-  encode_attributes(mesh, encoded.box, tables, out);
+  if (!source.exact.empty()) {
+    std::vector<GridPoint> positions;
+    for (VertexId v : encoded.source_of_vertex) {
+      positions.push_back(source.positions[v]);
+      mesh.exact.push_back(source.exact[v]);
+    }
+    encode_exact(positions, mesh.exact, source.grid, out);
+  }
+  encode_turned_and_anchors(mesh, out);
 
   ByteWriter part;
-  write_region_header(part, {.has_turned = !mesh.is_turned.empty(), .has_anchors = !mesh.anchors.empty()});
+  write_region_header(part, {.has_turned = !mesh.is_turned.empty(),
+                             .has_anchors = !mesh.anchors.empty(),
+                             .has_exact = !mesh.exact.empty()});
   const EntropyEncoder::Coded coded = out.finish<2>(tables.region);
   part.append(coded.bytes);
   encoded.connectivity_size = coded.bytes_to_mark;

@@ -20,6 +20,8 @@ struct RegionSource {
   std::vector<GridPoint> positions;        ///< by local vertex
   std::vector<bool> is_turned;             ///< by local triangle; empty if none is
   std::vector<std::uint32_t> weld_groups;  ///< by local vertex, kNone where it is no anchor; empty if none is
+  std::vector<ExactPosition> exact;        ///< by local vertex in a bit-exact model, else empty
+  Grid grid;                               ///< needed only then
 };
 
 struct EncodedRegion {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <limits>
 #include <mutex>
 
 #include "common/mesh/grid.h"
@@ -70,13 +72,25 @@ std::vector<NamedRegions> to_ranges(const std::map<std::string, std::vector<Regi
   return names;
 }
 
+bool are_floats(const std::vector<Vec3>& positions) {
+  return std::all_of(positions.begin(), positions.end(), [](const Vec3& p) {
+    constexpr double kMost = std::numeric_limits<float>::max();
+    for (int axis = 0; axis < 3; ++axis) {
+      if (std::abs(p[axis]) > kMost || static_cast<double>(static_cast<float>(p[axis])) != p[axis])
+        return false;
+    }
+    return true;
+  });
+}
+
 }  // namespace
 
-Result<IngestedModel> ingest(const TriangleSoup& soup, const IngestOptions& options, const ParallelFor& parallel,
-                             const Progress& progress) {
+Result<IngestedModel> ingest(const TriangleSoup& soup, const IngestOptions& options,
+                             const ParallelFor& parallel, const Progress& progress) {
   if (options.bits < kMinGridBits || options.bits > kMaxGridBits) {
     return fail(ErrorCode::InvalidArgument, "grid bits must be " + std::to_string(kMinGridBits) + " to " +
-                                                std::to_string(kMaxGridBits) + ", not " + std::to_string(options.bits));
+                                                std::to_string(kMaxGridBits) + ", not " +
+                                                std::to_string(options.bits));
   }
   IngestedModel model;
   StageClock clock(progress, model.times);
@@ -84,9 +98,14 @@ Result<IngestedModel> ingest(const TriangleSoup& soup, const IngestOptions& opti
 
   auto repaired = clock.run("repair", [&] { return repair(soup); });
   if (!repaired) return forward_error(repaired);
+  if (options.lossless && !are_floats(repaired->positions)) {
+    return fail(ErrorCode::InvalidArgument,
+                "a coordinate has more digits than a float32 holds, so it cannot be kept bit for bit");
+  }
   model.repair = repaired->report;
   if (!options.parts.of_triangle.empty()) {
-    *repaired = clock.run("cut", [&] { return cut_along_parts(std::move(*repaired), options.parts.of_triangle); });
+    *repaired =
+        clock.run("cut", [&] { return cut_along_parts(std::move(*repaired), options.parts.of_triangle); });
   }
   const RepairedMesh mesh = clock.run("order", [&] { return spatially_ordered(std::move(*repaired)); });
   if (clock.is_cancelled()) return cancelled();
@@ -94,13 +113,15 @@ Result<IngestedModel> ingest(const TriangleSoup& soup, const IngestOptions& opti
       clock.run("segment", [&] { return segment_model(mesh, options.parts, options.segment, parallel); });
   const Segmentation& segmentation = named.regions;
   if (clock.is_cancelled()) return cancelled();
-  const Partition partition = clock.run(
-      "partition", [&] { return make_partition(mesh.table, segmentation.region_of_vertex, segmentation.region_count); });
+  const Partition partition = clock.run("partition", [&] {
+    return make_partition(mesh.table, segmentation.region_of_vertex, segmentation.region_count);
+  });
   const Grid grid = make_grid(mesh.positions, options.bits);
   const double parts = 2.0 * (partition.region_count + 1);
   std::atomic<std::uint32_t> done = 0;
   EncodedModel encoded = clock.run("encode", [&] {
-    const ModelSource source{mesh.table, mesh.positions, mesh.source_of_vertex, mesh.is_turned, partition};
+    const ModelSource source{mesh.table,     mesh.positions, mesh.source_of_vertex,
+                             mesh.is_turned, partition,      options.lossless};
     return encode_model(source, grid, parallel, [&] { clock.report("encode", ++done / parts); });
   });
   if (clock.is_cancelled()) return cancelled();

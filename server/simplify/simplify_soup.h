@@ -25,7 +25,9 @@ struct SimplifiedSoup {
 ///
 /// The copies of a split vertex are pinned, so non-manifold spots stay as they are, and a model that is
 /// little else does not shrink. Where a triangle comes to lie between two copies of one vertex, welding makes
-/// it a line; it is dropped, and the triangles beside it meet.
+/// it a line; it is dropped, and the triangles beside it meet. Fans that were apart at a split vertex may
+/// come to share an edge there: where the file is not manifold, the result need not be either, but no border
+/// opens.
 ///
 /// A model whose components are all as simple as they can be (a tetrahedron, a triangle) stays above the
 /// target. Fails as repair does.

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <bit>
+#include <iterator>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -40,6 +42,7 @@ DecodeLimits limits_of(const RegionSource& source) {
       limits.box_max[axis] = std::max(limits.box_max[axis], p[axis]);
     }
   }
+  if (!source.exact.empty()) limits.exact = source.grid;
   return limits;
 }
 
@@ -123,6 +126,44 @@ TEST(RegionCodec, RoundTripsLooseVertices) {
   source.table.set_corner_of_vertex(3);
   source.weld_groups = {kNone, 17, kNone};
   expect_round_trip(source);
+}
+
+/// Floats as awkward as they come, most of them in their grid point's cell.
+RegionSource exact_source(std::uint32_t seed) {
+  const RandomManifold mesh = random_manifold(seed);
+  RegionSource source = source_of(mesh, seed);
+  source.grid = make_grid(mesh.positions, kBits);
+  std::mt19937 random(seed);
+  constexpr float kOdd[] = {0.0f, -0.0f, 1e-45f, -1e-40f, 3.4028235e38f, -3.4028235e38f, 1.0f};
+  for (const Vec3& p : mesh.positions) {
+    ExactPosition exact{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+    if (random() % 4 == 0) exact[random() % 3] = kOdd[random() % std::size(kOdd)];
+    source.exact.push_back(exact);
+  }
+  return source;
+}
+
+TEST(RegionCodec, RestoresFloatsBitForBit) {
+  for (std::uint32_t seed = 0; seed < 100; ++seed) {
+    const RegionSource source = exact_source(seed);
+    const EncodedRegion encoded = encode_region(source);
+    const auto decoded = decode_region(encoded.bytes, limits_of(source));
+    ASSERT_TRUE(decoded) << decoded.error().message;
+    ASSERT_EQ(decoded->exact.size(), source.exact.size());
+    for (VertexId v = 0; v < decoded->exact.size(); ++v) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        EXPECT_EQ(std::bit_cast<std::uint32_t>(decoded->exact[v][axis]),
+                  std::bit_cast<std::uint32_t>(source.exact[encoded.source_of_vertex[v]][axis]));
+      }
+    }
+  }
+}
+
+TEST(RegionCodec, RefusesExactPositionsThatTheDirectoryDoesNotPromise) {
+  const RegionSource source = exact_source(3);
+  DecodeLimits limits = limits_of(source);
+  limits.exact.reset();
+  EXPECT_FALSE(decode_region(encode_region(source).bytes, limits));
 }
 
 TEST(RegionCodec, IsAPureFunctionOfItsInput) {

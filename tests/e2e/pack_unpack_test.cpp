@@ -2,6 +2,7 @@
 //
 // Ingest and client together, without a network: nothing may be lost.
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <random>
 
@@ -124,6 +125,30 @@ TEST(PackUnpack, GivesExactlyTheTrianglesBetweenSelectedRegions) {
       expected += is_selected[a] && is_selected[b] && is_selected[c];
     EXPECT_EQ(stitched->soup.triangles.size(), expected);
   }
+}
+
+TEST(PackUnpack, KeepsFloatsBitForBitWhenAskedTo) {
+  TriangleSoup soup = shapes::torus(30, 40);
+  for (Vec3& p : soup.positions)
+    p = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+  soup.positions[7].x = -0.0;
+  soup.positions[8].y = 1e-42f;
+  const auto pack = pack_of(soup, {.bits = 10, .lossless = true});
+  EXPECT_TRUE(pack->directory().is_exact);
+  const auto stitched = unpack(*pack);
+  ASSERT_TRUE(stitched) << stitched.error().message;
+  const MeshComparison comparison = compare_meshes(soup, stitched->soup, 0);
+  EXPECT_TRUE(comparison.same) << comparison.difference;
+  const auto is_minus_zero = [](const Vec3& p) { return p.x == 0 && std::signbit(p.x); };
+  EXPECT_TRUE(std::any_of(stitched->soup.positions.begin(), stitched->soup.positions.end(), is_minus_zero));
+}
+
+TEST(PackUnpack, RefusesToKeepWhatNoFloatHolds) {
+  TriangleSoup soup = shapes::torus(10, 10);
+  soup.positions[3].z = 0.1;
+  const auto model = ingest(soup, {.lossless = true}, serial_for(), keep_going);
+  ASSERT_FALSE(model);
+  EXPECT_EQ(model.error().code, ErrorCode::InvalidArgument);
 }
 
 TEST(PackUnpack, StopsWhenToldTo) {

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "server/simplify/levels.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <set>
 
 #include <gtest/gtest.h>
 
+#include "common/mesh/boundary_loops.h"
 #include "common/mesh/grid.h"
 #include "common/samples/samples.h"
 #include "server/segment/check_partition.h"
@@ -123,34 +125,6 @@ TEST(Levels, TheFinestIsExact) {
   }
 }
 
-TEST(Levels, ARegionsOwnTrianglesStayOnePieceAtEveryLevel) {
-  for (const LabelledMesh& mesh : models()) {
-    const LevelledMesh levels = levels_of(mesh);
-    for (std::size_t level = 0; level < levels.regions.size(); ++level) {
-      const auto& representative = levels.representative_of_vertex[level];
-      for (RegionId region = 1; region <= mesh.segmentation.region_count; ++region) {
-        const auto own = [&](std::span<const TriangleId> ids) {
-          std::vector<Triangle> triangles;
-          for (const TriangleId t : ids) {
-            triangles.push_back(mesh.table.triangle(t));
-            for (VertexId& v : triangles.back()) v = representative[v];
-          }
-          return triangles;
-        };
-        const std::vector<Triangle> coarse = own(levels.regions[level][region].triangles);
-        ASSERT_EQ(manifold_violation(coarse, mesh.table.vertex_count()), "")
-            << mesh.name << " region " << region;
-        std::vector<Triangle> finest;
-        for (const TriangleId t : levels.regions[0][region].triangles)
-          finest.push_back(mesh.table.triangle(t));
-        ASSERT_EQ(topology_of(coarse, mesh.table.vertex_count()),
-                  topology_of(finest, mesh.table.vertex_count()))
-            << mesh.name << " region " << region << " level " << level;
-      }
-    }
-  }
-}
-
 TEST(Levels, VerticesListedAreThoseOfTheTriangles) {
   const LabelledMesh mesh = labelled("sphere", shapes::sphere(5), 0.4);
   const LevelledMesh levels = levels_of(mesh);
@@ -180,6 +154,81 @@ TEST(Levels, RepresentativesStayInTheirRegionAndLoopVerticesOnTheirLoop) {
       for (VertexId v = 0; v < mesh.table.vertex_count(); ++v) {
         ASSERT_EQ(labels[representative[v]], labels[v]);
         ASSERT_TRUE(!is_loop_vertex[v] || is_loop_vertex[representative[v]]);
+      }
+    }
+  }
+}
+
+/// The region's own triangles at a level.
+std::vector<Triangle> region_triangles(const LabelledMesh& mesh, const LevelledMesh& levels,
+                                       std::size_t level, RegionId region) {
+  std::vector<Triangle> triangles;
+  for (const TriangleId t : levels.regions[level][region].triangles) {
+    triangles.push_back(mesh.table.triangle(t));
+    for (VertexId& v : triangles.back()) v = levels.representative_of_vertex[level][v];
+  }
+  return triangles;
+}
+
+/// Its loops, each from its lowest vertex, in order.
+std::vector<std::vector<VertexId>> loops_of(const std::vector<Triangle>& triangles,
+                                            std::uint32_t vertex_count) {
+  const BoundaryLoops found = find_boundary_loops(build_corner_table(triangles, vertex_count));
+  std::vector<std::vector<VertexId>> loops;
+  auto at = found.vertices.begin();
+  for (const std::uint32_t length : found.lengths) {
+    loops.emplace_back(at, at + length);
+    at += length;
+  }
+  return loops;
+}
+
+TEST(Levels, ARegionsOwnTrianglesStayOnePieceAtEveryLevel) {
+  for (const LabelledMesh& mesh : models()) {
+    const LevelledMesh levels = levels_of(mesh);
+    const std::uint32_t count = mesh.table.vertex_count();
+    for (RegionId region = 1; region <= mesh.segmentation.region_count; ++region) {
+      const Topology finest = topology_of(region_triangles(mesh, levels, 0, region), count);
+      for (std::size_t level = 1; level < levels.regions.size(); ++level) {
+        const std::vector<Triangle> coarse = region_triangles(mesh, levels, level, region);
+        ASSERT_EQ(manifold_violation(coarse, count), "") << mesh.name << " region " << region;
+        ASSERT_EQ(topology_of(coarse, count), finest)
+            << mesh.name << " region " << region << " level " << level;
+      }
+    }
+  }
+}
+
+// What lets a level's map of the boundary be one bit for each vertex that went.
+TEST(Levels, LoopsAreTheFinestOnesWithVerticesLeftOutAndThoseWentToTheNextOneKept) {
+  for (const LabelledMesh& mesh : models()) {
+    const LevelledMesh levels = levels_of(mesh);
+    const std::uint32_t count = mesh.table.vertex_count();
+    for (std::size_t level = 1; level < levels.regions.size(); ++level) {
+      const auto& representative = levels.representative_of_vertex[level];
+      for (RegionId region = 1; region <= mesh.segmentation.region_count; ++region) {
+        std::vector<std::vector<VertexId>> expected;
+        for (const auto& loop : loops_of(region_triangles(mesh, levels, 0, region), count)) {
+          std::vector<VertexId> kept;
+          for (const VertexId v : loop) {
+            if (representative[v] == v) kept.push_back(v);
+          }
+          ASSERT_GE(kept.size(), 3u);
+          for (std::size_t i = 0, next_kept = 0; i < loop.size(); ++i) {
+            if (representative[loop[i]] == loop[i]) {
+              ++next_kept;
+              continue;
+            }
+            const VertexId previous = kept[(next_kept + kept.size() - 1) % kept.size()];
+            const VertexId following = kept[next_kept % kept.size()];
+            ASSERT_TRUE(representative[loop[i]] == previous || representative[loop[i]] == following);
+          }
+          std::rotate(kept.begin(), std::min_element(kept.begin(), kept.end()), kept.end());
+          expected.push_back(kept);
+        }
+        std::sort(expected.begin(), expected.end());
+        ASSERT_EQ(loops_of(region_triangles(mesh, levels, level, region), count), expected)
+            << mesh.name << " region " << region << " level " << level;
       }
     }
   }

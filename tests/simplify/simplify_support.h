@@ -2,7 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <iosfwd>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/mesh/corner_table.h"

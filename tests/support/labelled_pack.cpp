@@ -11,14 +11,16 @@
 
 namespace selvage {
 
-Bytes labelled_pack(const TriangleSoup& soup, std::span<const std::uint32_t> label_of_vertex, int bits) {
+Bytes labelled_pack(const TriangleSoup& soup, std::span<const std::uint32_t> label_of_vertex, int bits,
+                    bool is_exact) {
   const RepairedMesh mesh = repair(soup).value();
   std::vector<std::uint32_t> labels;
   for (VertexId source : mesh.source_of_vertex) labels.push_back(label_of_vertex[source]);
   const Segmentation segmentation = regularise(mesh.table, labels, {}, mesh.positions);
   const Partition partition =
       make_partition(mesh.table, segmentation.region_of_vertex, segmentation.region_count);
-  const ModelSource source{mesh.table, mesh.positions, mesh.source_of_vertex, mesh.is_turned, partition};
+  const ModelSource source{mesh.table,     mesh.positions, mesh.source_of_vertex,
+                           mesh.is_turned, partition,      is_exact};
   EncodedModel model = encode_model(source, make_grid(mesh.positions, bits), serial_for(), [] {});
   model.directory.name = "labelled";
   model.directory.vertices =

@@ -12,7 +12,8 @@
 namespace selvage {
 
 /// Any label a vertex of the soup; regularisation makes them codable.
-Bytes labelled_pack(const TriangleSoup& soup, std::span<const std::uint32_t> label_of_vertex, int bits);
+Bytes labelled_pack(const TriangleSoup& soup, std::span<const std::uint32_t> label_of_vertex, int bits,
+                    bool is_exact = false);
 
 /// Labels that form patches: vertices in cubes of side `cell` share one.
 std::vector<std::uint32_t> cube_labels(const TriangleSoup& soup, double cell);

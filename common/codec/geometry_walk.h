@@ -48,7 +48,8 @@ struct Surroundings {
   std::array<std::int32_t, 3> edge{}, beyond{}, ring{}, trend{};
   unsigned normal_axis = 2;
   std::array<std::int32_t, 3> normal{};  ///< 15 bits and sign; zero if unknown
-  std::array<std::int32_t, 4> sizes{};  ///< logarithms: tangential and normal residuals nearby, spread, reach
+  /// Logarithms as codec_tables.h lists them; the last place is for the first axis.
+  std::array<std::int16_t, kCommonSizeFeatures + 1> sizes{};
 };
 
 /// How a residual of one axis is coded.
@@ -58,40 +59,47 @@ struct SizeClass {
 };
 
 /// 8 times the binary logarithm of x + 1, roughly: exact at powers of two, linear between.
-inline std::int32_t log_size(std::uint64_t x) {
+inline std::int16_t log_size(std::uint64_t x) {
   ++x;
   const int octave = static_cast<int>(std::bit_width(x)) - 1;
-  return 8 * octave + static_cast<std::int32_t>((x << 3 >> octave) & 7);
+  return static_cast<std::int16_t>(8 * octave + static_cast<int>((x << 3 >> octave) & 7));
 }
 
-class Predictor {
+class GeometryWalk {
  public:
-  /// `table` and `tables` are kept by reference. Vertices must be numbered in coding order: only
-  /// lower-numbered ones are known. `extent` is the longest side of the region's box, coordinates are below
-  /// 2^24.
-  Predictor(const CornerTable& table, const CodecTables& tables, const Blends& blends, std::int32_t extent);
+  /// Vertices of `table` may have any numbers below 2^31, vertices without corner are passed over. `tables`
+  /// is kept by reference. `extent` is the longest side of the region's box; coordinates are below 2^24.
+  GeometryWalk(CornerTable table, const CodecTables& tables, const Blends& blends, std::int32_t extent);
 
-  /// Of vertex number count().
-  Surroundings look_around() const;
-  /// The position to expect; the first vertex of a component has nothing but the vertex before.
+  /// Goes to the next vertex and looks around; false after the last. Every call must be followed by place()
+  /// or place_first() before the next.
+  bool next_vertex(Surroundings& around);
+  /// The number that the current vertex had in the table.
+  VertexId old_number() const { return current_; }
+  /// Vertices placed so far.
+  std::uint32_t count() const { return count_; }
+
+  /// The position to expect.
   GridPoint predict(const Surroundings& around) const;
   /// What the tangent plane says about the residual along around.normal_axis, given the other two.
   std::int32_t tangent_residual(const Surroundings& around, std::int32_t u, std::int32_t w) const;
-
-  /// The features of a residual's size: axis 0 and 1 are tangential, 2 the normal one. `u`, `w`: residuals of
-  /// the axes before it, 0 if there are none yet; `tangent` for axis 2.
-  std::array<std::int32_t, kSizeFeatures> size_features(const Surroundings& around, std::uint32_t u,
+  /// How big a residual is to be expected: axis 0 and 1 are tangential, 2 the normal one. `u`, `w`:
+  /// magnitudes on the axes before it; `tangent`: of tangent_residual, for axis 2. 0 where not yet known.
+  SizeClass size_class(const Surroundings& around, unsigned axis, std::uint32_t u, std::uint32_t w,
+                       std::uint32_t tangent) const;
+  /// What size_class weighs, for training.
+  std::array<std::int16_t, kSizeFeatures> size_features(const Surroundings& around, std::uint32_t u,
                                                         std::uint32_t w, std::uint32_t tangent) const;
-  SizeClass size_class(const Surroundings& around, unsigned axis,
-                       const std::array<std::int32_t, kSizeFeatures>& features) const;
 
+  /// What the current vertex turned out to be. `tangential` and `normal` are the magnitudes of the coded
+  /// residuals.
+  void place(const Surroundings& around, const GridPoint& position, std::uint32_t tangential,
+             std::uint32_t normal);
   /// A vertex without neighbours, which nothing predicts.
-  void append_first(const GridPoint& position) { known_.push_back({position, {}, 0, 0}); }
-  /// What it turned out to be. `tangential` and `normal` are the magnitudes of the coded residuals.
-  void append(const Surroundings& around, const GridPoint& position, std::uint32_t tangential,
-              std::uint32_t normal);
+  void place_first(const GridPoint& position);
 
-  std::uint32_t count() const { return static_cast<std::uint32_t>(known_.size()); }
+  /// The table with vertices numbered by visit, and their positions. The walk is spent.
+  CornerTable take_table();
   std::vector<GridPoint> positions() const;
 
  private:
@@ -100,12 +108,24 @@ class Predictor {
     GridPoint error;  ///< against the mean parallelogram
     std::uint32_t tangential = 0, normal = 0;
   };
+  /// How many triangles predict a vertex that is not yet known; two stands for more.
+  enum State : std::uint8_t { kUnseen, kOnce, kWell, kVisited };
 
-  const CornerTable& table_;
+  bool find_next();
+  void look_around(Surroundings& around);
+
+  CornerTable table_;  ///< visited vertices already have their new numbers, the others kUnvisited added
   const CodecTables& tables_;
   unsigned tangent_blend_;
   std::array<ShapeWeights, kShapeClasses> shape_;  ///< blended
-  std::vector<Known> known_;
+  std::vector<std::uint8_t> states_;               ///< by old number
+  std::vector<VertexId> well_, once_;              ///< queues of old numbers
+  std::size_t next_well_ = 0, well_end_ = 0, next_once_ = 0, once_end_ = 0;
+  CornerId next_seed_ = 0;
+  VertexId current_ = kNone;
+  std::vector<CornerId> corner_of_visited_;
+  std::vector<Known> known_;  ///< by new number; one of zeros behind the last stands for all unvisited
+  VertexId count_ = 0;
   std::int32_t recent_tangential_, recent_normal_;  ///< running means of logarithms, in 32nds
 };
 
