@@ -26,6 +26,16 @@ nlohmann::ordered_json to_json(RegionId id, const RegionEntry& entry, const Grid
           {"lower_neighbours", entry.lower_neighbours}};
 }
 
+/// As --regions takes it: "3,5-7".
+std::string to_text(const std::vector<RegionRange>& ranges) {
+  std::string text;
+  for (const auto& [first, last] : ranges) {
+    if (!text.empty()) text += ',';
+    text += first == last ? std::to_string(first) : fmt::format("{}-{}", first, last);
+  }
+  return text;
+}
+
 }  // namespace
 
 Result<void> run(const ListCommand& command) {
@@ -72,6 +82,8 @@ Result<void> run(const RegionsCommand& command) {
                entry.levels[0].vertices, entry.levels[0].triangles, entry.levels[0].part.size, low.x, low.y,
                low.z, high.x, high.y, high.z);
   }
+  for (const NamedRegions& named : directory->names)
+    fmt::print("{}: {}\n", named.name, to_text(named.ranges));
   return {};
 }
 

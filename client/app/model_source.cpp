@@ -88,7 +88,9 @@ Result<FetchedModel> fetch_from_pack(const std::filesystem::path& path, const Fe
   const auto begin = Clock::now();
   auto pack = Pack::open(path);
   if (!pack) return forward_error(pack);
-  auto parts = select_parts((*pack)->directory(), options.selection);
+  auto selection = resolve_names((*pack)->directory(), options.selection);
+  if (!selection) return forward_error(selection, path.string());
+  auto parts = select_parts((*pack)->directory(), *selection);
   if (!parts) return forward_error(parts, path.string());
 
   FetchedModel model;
@@ -115,14 +117,16 @@ Result<FetchedModel> fetch_from_server(const std::string& address, const FetchOp
   if (!client) return forward_error(client, address);
   auto manifest = client->open(where->model);
   if (!manifest) return forward_error(manifest, address);
-  auto expected = select_parts((*manifest)->directory, options.selection);
+  auto selection = resolve_names((*manifest)->directory, options.selection);
+  if (!selection) return forward_error(selection, address);
+  auto expected = select_parts((*manifest)->directory, *selection);
   if (!expected) return forward_error(expected, address);
 
   FetchedModel model;
   model.directory = (*manifest)->directory;
   model.directory_bytes = (*manifest)->directory_bytes;
   Decoding decoding(model.directory, options.threads, begin);
-  auto stats = client->get({*manifest, options.selection, {}}, [&](ReceivedPart part) -> Result<void> {
+  auto stats = client->get({*manifest, *selection, {}}, [&](ReceivedPart part) -> Result<void> {
     model.part_bytes += part.bytes.size();
     ++model.parts;
     progress(model.parts, static_cast<std::uint32_t>(expected->size()), model.part_bytes);

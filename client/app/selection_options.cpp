@@ -10,7 +10,9 @@ namespace selvage {
 void SelectionOptions::add_to(CLI::App& command) {
   const std::map<std::string, Joins> choices = {
       {"none", Joins::None}, {"closure", Joins::Closure}, {"all", Joins::All}};
-  auto* by_number = command.add_option("--regions", regions, "regions by number, for instance 3,5-7");
+  auto* by_number = command.add_option(
+      "--regions", regions,
+      "regions by number or by the name of a part, for instance wheel_left,3,5-7; =7 is the part called 7");
   auto* by_box =
       command.add_option("--box", box, "regions that meet the box x0,y0,z0,x1,y1,z1, in model units");
   auto* everything = command.add_flag("--all", all, "the whole model (default)");
@@ -29,10 +31,10 @@ Result<Selection> SelectionOptions::selection() const {
   Selection selection;
   selection.joins = joins;
   if (!regions.empty()) {
-    auto ids = parse_region_list(regions);
-    if (!ids) return forward_error(ids, "--regions");
-    selection.kind = Selection::Kind::Ids;
-    selection.ids = std::move(*ids);
+    auto listed = parse_region_list(regions);
+    if (!listed) return forward_error(listed, "--regions");
+    listed->joins = joins;
+    return listed;
   } else if (!box.empty()) {
     auto parsed = parse_box(box);
     if (!parsed) return forward_error(parsed, "--box");

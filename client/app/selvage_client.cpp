@@ -25,7 +25,7 @@ void add(CLI::App& app, ListCommand& command) {
 }
 
 void add(CLI::App& app, RegionsCommand& command) {
-  CLI::App& regions = *app.add_subcommand("regions", "List the regions of a model");
+  CLI::App& regions = *app.add_subcommand("regions", "List the regions of a model, and the names of its parts");
   regions.add_option("SOURCE", command.source, "HOST:PORT/MODEL or a pack")->required();
   regions.add_flag("--json", command.json, "print as JSON");
   regions.footer(
@@ -48,6 +48,7 @@ void add_get(CLI::App& app, GetCommand& command) {
       "Examples:\n"
       "  selvage-client get localhost:7878/bunny -o bunny.ply\n"
       "  selvage-client get localhost:7878/bunny --regions 3,5-7 -o ears.obj\n"
+      "  selvage-client get localhost:7878/car --regions wheel_left,wheel_right -o wheels.ply\n"
       "  selvage-client get localhost:7878/site --box 0,0,0,10,10,3 --joins none -o room.stl");
 }
 

@@ -22,6 +22,36 @@ void MeshBuilder::add_polygon(std::span<const std::uint32_t> corners) {
   if (corners.size() < 3) ++short_faces_;
   if (corners.size() > 3) ++file_.polygons;
   for (std::size_t k = 2; k < corners.size(); ++k) add_triangle({corners[0], corners[k - 1], corners[k]});
+  if (has_names_) note_group();
+}
+
+std::uint32_t MeshBuilder::name_index(std::string_view name) {
+  const auto found = index_of_name_.find(name);
+  if (found != index_of_name_.end()) return found->second;
+  const auto index = static_cast<std::uint32_t>(file_.names.size());
+  file_.names.emplace_back(name);
+  index_of_name_.emplace(name, index);
+  return index;
+}
+
+void MeshBuilder::set_group(NamedGroup group) {
+  if (!has_names_) note_group();  // what came before belongs to no name
+  has_names_ = true;
+  group_ = std::move(group);
+  group_index_ = kNone;
+}
+
+void MeshBuilder::note_group() {
+  const std::size_t triangles = file_.soup.triangles.size();
+  if (triangles == file_.group_of_triangle.size()) return;
+  if (group_index_ == kNone) {
+    const auto next = static_cast<std::uint32_t>(file_.groups.size());
+    const auto [it, is_new] =
+        index_of_group_.try_emplace({group_.groups, group_.object, group_.material}, next);
+    if (is_new) file_.groups.push_back(group_);
+    group_index_ = it->second;
+  }
+  file_.group_of_triangle.resize(triangles, group_index_);
 }
 
 void MeshBuilder::add_triangle(const Triangle& triangle) {

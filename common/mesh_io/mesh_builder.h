@@ -6,8 +6,11 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
+#include <string_view>
+#include <tuple>
 
 #include "common/base/result.h"
 #include "common/mesh_io/mesh_file.h"
@@ -28,6 +31,10 @@ class MeshBuilder {
   void add_vertex(const Vec3& position);
   /// A fan from the first corner. Fewer than three corners make no triangle, only a note.
   void add_polygon(std::span<const std::uint32_t> corners);
+  /// The polygons that follow belong to it. Groups that are stated again, with the same names, are the same.
+  void set_group(NamedGroup group);
+  /// The number by which groups refer to a name.
+  std::uint32_t name_index(std::string_view name);
   void note(std::string line) { file_.notes.push_back(std::move(line)); }
 
   std::uint64_t vertex_count() const { return file_.soup.positions.size(); }
@@ -39,9 +46,16 @@ class MeshBuilder {
 
  private:
   void add_triangle(const Triangle& triangle);
+  void note_group();  ///< the triangles added since the last call belong to group_
 
   std::uint64_t max_indices_;
   MeshFile file_;
+  std::map<std::string, std::uint32_t, std::less<>> index_of_name_;
+  std::map<std::tuple<std::vector<std::uint32_t>, std::uint32_t, std::uint32_t>, std::uint32_t>
+      index_of_group_;
+  NamedGroup group_;                   ///< of the polygons that follow
+  std::uint32_t group_index_ = kNone;  ///< of group_ in the file; kNone until it has a triangle
+  bool has_names_ = false;
   std::uint64_t short_faces_ = 0;
   bool is_over_limit_ = false;
 };

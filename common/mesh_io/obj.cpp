@@ -14,18 +14,14 @@
 namespace selvage {
 namespace {
 
-/// Why a statement is not read, for the note; nullptr for those that say nothing about the surface (names,
-/// smoothing).
+/// Why a statement is not read, for the note; nullptr for smoothing, which says nothing about the surface.
 const char* reason_to_drop(std::string_view keyword) {
   static const std::map<std::string_view, const char*> kReasons = {
       {"vt", "texture coordinates"},
       {"vn", "normals"},
-      {"usemtl", "materials"},
       {"mtllib", "materials"},
       {"l", "lines"},
       {"p", "points"},
-      {"g", nullptr},
-      {"o", nullptr},
       {"s", nullptr},
       {"vp", "free-form curves and surfaces"},
       {"curv", "free-form curves and surfaces"},
@@ -86,6 +82,7 @@ class ObjReader {
     const std::string_view keyword = scan_.word();
     if (keyword == "v") return read_vertex();
     if (keyword == "f" || keyword == "fo") return read_face();
+    if (keyword == "g" || keyword == "o" || keyword == "usemtl") return read_name(keyword[0]);
     if (!looks_like_keyword(keyword)) return scan_.fail_here("not an OBJ statement: " + quote(keyword));
     if (const char* reason = reason_to_drop(keyword)) drop(reason, keyword);
     return std::nullopt;
@@ -116,6 +113,29 @@ class ObjReader {
     return std::nullopt;
   }
 
+  /// `g` states any number of names, the others one that may hold blanks. Each holds until the next of its
+  /// kind.
+  Failure read_name(char kind) {
+    if (kind == 'g') {
+      group_.groups.clear();
+      while (!scan_.at_line_end() && group_.groups.size() < kMaxGroups)
+        group_.groups.push_back(mesh_.name_index(shortened(scan_.word())));
+      if (!scan_.at_line_end()) drop("more than 16 groups at once", "g");
+      std::sort(group_.groups.begin(), group_.groups.end());
+      group_.groups.erase(std::unique(group_.groups.begin(), group_.groups.end()), group_.groups.end());
+    } else {
+      std::string name;
+      while (!scan_.at_line_end() && name.size() < kMaxNameLength)
+        name += (name.empty() ? "" : " ") + std::string(scan_.word());
+      std::uint32_t& place = kind == 'o' ? group_.object : group_.material;
+      place = name.empty() ? kNone : mesh_.name_index(shortened(name));
+    }
+    mesh_.set_group(group_);
+    return std::nullopt;
+  }
+
+  static std::string_view shortened(std::string_view name) { return name.substr(0, kMaxNameLength); }
+
   Failure read_corner(std::uint32_t& index) {
     const std::string_view word = scan_.peek();
     const char* end = word.data() + word.size();
@@ -140,8 +160,11 @@ class ObjReader {
     dropped_.try_emplace(reason, Statement{std::string(keyword), scan_.line()});
   }
 
+  static constexpr std::size_t kMaxGroups = 16, kMaxNameLength = 255;
+
   TextScanner scan_;
   MeshBuilder mesh_;
+  NamedGroup group_;
   std::vector<std::uint32_t> polygon_;
   std::uint64_t highest_index_ = 0;
   std::uint64_t line_of_highest_ = 0;

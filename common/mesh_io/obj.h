@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Wavefront OBJ: vertices (`v`) and faces (`f` in all its forms: v, v/vt, v//vn, v/vt/vn, indices counted
-// from the end when negative). Everything else of the format is stepped over and noted.
+// from the end when negative), and what their author called them (`g`, `o`, `usemtl`; 16 groups at once and
+// 255 bytes a name are kept). Everything else of the format is stepped over and noted.
 #pragma once
 
 #include <cstddef>

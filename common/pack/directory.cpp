@@ -179,6 +179,53 @@ Page write_page(const Directory& directory, std::uint32_t first) {
   return page;
 }
 
+// Names of parts end the summary; without any it ends before them. Each name: text, ranges {gap to the one
+// before, regions in it beyond the first}. The first gap counts from region 1, later ones from the first
+// region that would not touch.
+void write_names(ByteWriter& out, const std::vector<NamedRegions>& names) {
+  if (names.empty()) return;
+  out.varint(names.size());
+  for (const auto& [name, ranges] : names) {
+    out.string(name);
+    out.varint(ranges.size());
+    RegionId next = 1;
+    for (const auto& [first, last] : ranges) {
+      out.varint(first - next);
+      out.varint(last - first);
+      next = last + 2;
+    }
+  }
+}
+
+NamedRegions read_name(ByteReader& in, std::uint32_t region_count) {
+  NamedRegions named;
+  named.name = in.string(kMaxTextLength);
+  named.ranges.resize(in.count(2));
+  if (named.ranges.empty()) in.set_failed();
+  std::uint64_t next = 1;
+  for (auto& [first, last] : named.ranges) {
+    const std::uint64_t begin = next + in.varint32();
+    const std::uint64_t end = begin + in.varint32();
+    if (end >= region_count) in.set_failed();
+    if (!in.ok()) break;
+    first = static_cast<RegionId>(begin);
+    last = static_cast<RegionId>(end);
+    next = end + 2;
+  }
+  return named;
+}
+
+void read_names(ByteReader& in, std::uint32_t region_count, std::vector<NamedRegions>& names) {
+  if (!in.ok() || in.at_end()) return;
+  const std::uint32_t count = in.count(4);
+  if (count == 0) in.set_failed();
+  for (std::uint32_t i = 0; i < count && in.ok(); ++i) {
+    NamedRegions named = read_name(in, region_count);
+    if (!names.empty() && named.name <= names.back().name) in.set_failed();
+    names.push_back(std::move(named));
+  }
+}
+
 void write_summary(ByteWriter& out, Directory& directory, const std::vector<Page>& pages) {
   out.string(directory.name);
   out.string(directory.units);
@@ -200,6 +247,7 @@ void write_summary(ByteWriter& out, Directory& directory, const std::vector<Page
     write_box(out, page.low, page.high);
     write_hash(out, hash_of(page.bytes));
   }
+  write_names(out, directory.names);
 }
 
 /// Offsets follow from the order of parts alone, so they take no bytes in the directory.
@@ -252,6 +300,7 @@ Summary read_summary(ByteReader& in, Directory& directory) {
     read_box(in, directory.grid, low, high);
     page.hash = read_hash(in);
   }
+  read_names(in, summary.region_count, directory.names);
   return summary;
 }
 
@@ -276,6 +325,13 @@ Result<void> read_page(std::span<const std::byte> bytes, const PageRef& page, st
 
 std::uint32_t RegionEntry::boundary_vertices() const {
   return std::accumulate(loop_lengths.begin(), loop_lengths.end(), std::uint32_t{0});
+}
+
+const NamedRegions* Directory::find_name(std::string_view text) const {
+  const auto found = std::lower_bound(
+      names.begin(), names.end(), text,
+      [](const NamedRegions& named, std::string_view wanted) { return named.name < wanted; });
+  return found != names.end() && found->name == text ? &*found : nullptr;
 }
 
 const PartRef* Directory::find(const PartId& id) const {

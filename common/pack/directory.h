@@ -9,6 +9,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/base/hash.h"
@@ -61,7 +62,21 @@ struct SourceCounts {
   std::uint32_t dropped_triangles = 0;  ///< with a repeated index
   std::uint32_t unreferenced_vertices = 0;
   std::uint32_t flipped_triangles = 0;  ///< turned for coding, turned back by the decoder
-  std::uint32_t cut_vertices = 0;       ///< copies made at non-manifold spots, welded again by the stitcher
+  std::uint32_t cut_vertices = 0;  ///< copies made at non-manifold spots and between the author's parts; the
+                                   ///< stitcher welds them again
+};
+
+struct RegionRange {
+  RegionId first = 0, last = 0;  ///< inclusive
+  friend bool operator==(const RegionRange&, const RegionRange&) = default;
+};
+
+/// A part that the model's author named, as the regions it was cut into.
+struct NamedRegions {
+  std::string name;
+  std::vector<RegionRange> ranges;  ///< ascending, not touching one another, at least one
+
+  friend bool operator==(const NamedRegions&, const NamedRegions&) = default;
 };
 
 struct Directory {
@@ -75,9 +90,11 @@ struct Directory {
   std::uint32_t triangles = 0;           ///< of the stitched mesh
   std::uint32_t boundary_triangles = 0;  ///< of those, the ones in bundles
   std::uint64_t connectivity_bytes = 0;  ///< of all region parts, the share that is connectivity: for people
+  std::vector<NamedRegions> names;       ///< by name, each once; a region may have several names or none
   std::vector<RegionEntry> regions;      ///< by RegionId; [kLooseRegion] always exists
 
-  const PartRef* find(const PartId& id) const;  ///< null if there is no such part
+  const PartRef* find(const PartId& id) const;                 ///< null if there is no such part
+  const NamedRegions* find_name(std::string_view name) const;  ///< null if no part is called so
   std::uint32_t real_region_count() const { return static_cast<std::uint32_t>(regions.size()) - 1; }
 };
 

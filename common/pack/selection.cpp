@@ -63,6 +63,33 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
   }
 }
 
+/// What is made of digits and dashes alone means numbers.
+bool is_name(std::string_view piece) {
+  if (piece.starts_with('=')) return piece.size() > 1;
+  return piece.find_first_not_of("0123456789-") != std::string_view::npos;
+}
+
+Result<void> add_range(const RegionRange& range, std::vector<RegionId>& ids) {
+  if (range.last - range.first >= kMaxListedRegions - ids.size()) {
+    return fail(ErrorCode::LimitExceeded,
+                "more than " + std::to_string(kMaxListedRegions) + " regions listed; use --all");
+  }
+  for (RegionId i = 0; i <= range.last - range.first; ++i) ids.push_back(range.first + i);
+  return {};
+}
+
+std::string unknown_name(const Directory& directory, const std::string& name) {
+  constexpr std::size_t kShown = 10;
+  std::string message = "no part is called '" + name + "'";
+  if (directory.names.empty()) return message + "; this model has no names, only regions by number";
+  message += "; there are ";
+  for (std::size_t i = 0; i < std::min(kShown, directory.names.size()); ++i)
+    message += (i > 0 ? ", " : "") + directory.names[i].name;
+  if (directory.names.size() > kShown)
+    message += " and " + std::to_string(directory.names.size() - kShown) + " more";
+  return message;
+}
+
 }  // namespace
 
 Result<std::vector<RegionId>> select_regions(const Directory& directory, const Selection& selection) {
@@ -118,25 +145,39 @@ Result<std::vector<PartId>> select_parts(const Directory& directory, const Selec
   return parts;
 }
 
-Result<std::vector<RegionId>> parse_region_list(std::string_view text) {
-  std::vector<RegionId> regions;
+Result<Selection> parse_region_list(std::string_view text) {
+  Selection selection{.kind = Selection::Kind::Ids};
   for (std::string_view piece : split(text, ',')) {
+    if (is_name(piece)) {
+      if (piece.front() == '=') piece.remove_prefix(1);
+      selection.names.emplace_back(piece);
+      continue;
+    }
     const std::size_t dash = piece.find('-');
     RegionId first = 0, last = 0;
     const bool is_number =
         parse_number(piece.substr(0, dash), first) &&
         parse_number(dash == std::string_view::npos ? piece : piece.substr(dash + 1), last);
     if (!is_number || last < first) {
-      return fail(ErrorCode::InvalidArgument,
-                  "'" + std::string(piece) + "' is not a region or a range; write for instance 3,5-7");
+      return fail(ErrorCode::InvalidArgument, "'" + std::string(piece) +
+                                                  "' is not a region, a range or a name; write for instance "
+                                                  "wheel_left,3,5-7");
     }
-    if (last - first >= kMaxListedRegions - regions.size()) {
-      return fail(ErrorCode::LimitExceeded,
-                  "more than " + std::to_string(kMaxListedRegions) + " regions listed; use --all");
-    }
-    for (RegionId id = first; id <= last; ++id) regions.push_back(id);
+    if (auto ok = add_range({first, last}, selection.ids); !ok) return forward_error(ok);
   }
-  return regions;
+  return selection;
+}
+
+Result<Selection> resolve_names(const Directory& directory, Selection selection) {
+  for (const std::string& name : selection.names) {
+    const NamedRegions* named = directory.find_name(name);
+    if (named == nullptr) return fail(ErrorCode::NotFound, unknown_name(directory, name));
+    for (const RegionRange& range : named->ranges) {
+      if (auto ok = add_range(range, selection.ids); !ok) return forward_error(ok);
+    }
+  }
+  selection.names.clear();
+  return selection;
 }
 
 Result<Box> parse_box(std::string_view text) {

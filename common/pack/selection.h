@@ -29,20 +29,30 @@ struct Selection {
   enum class Kind : std::uint8_t { All, Ids, Box };
   Kind kind = Kind::All;
   std::vector<RegionId> ids;  ///< Kind::Ids; any order, repeats allowed
-  Box box;                    ///< Kind::Box: regions whose boxes meet it
+  /// Kind::Ids, beside those: parts by the name that their author gave. Only who has the directory knows what
+  /// they stand for, so they never travel: see resolve_names.
+  std::vector<std::string> names = {};
+  Box box;  ///< Kind::Box: regions whose boxes meet it
   Joins joins = Joins::Closure;
   std::uint8_t level = 0;
 };
 
-/// The selected regions, ascending, without the loose region. NotFound names an id that is not in the model.
+/// The same selection with the regions that its names stand for instead of the names. NotFound names a name
+/// that is not in the model.
+Result<Selection> resolve_names(const Directory& directory, Selection selection);
+
+/// The selected regions, ascending, without the loose region; names must be resolved. NotFound names an id
+/// that is not in the model.
 Result<std::vector<RegionId>> select_regions(const Directory& directory, const Selection& selection);
 
 /// The parts that answer a selection, regions in ascending order, each followed by its bundle. The loose part
 /// comes first when a chosen bundle needs it.
 Result<std::vector<PartId>> select_parts(const Directory& directory, const Selection& selection);
 
-/// "3,5-7" -> {3, 5, 6, 7}. InvalidArgument names the piece that is wrong. At most 1,000,000 ids.
-Result<std::vector<RegionId>> parse_region_list(std::string_view text);
+/// "wheel_left,3,5-7" -> the names and {3, 5, 6, 7}, as a selection by ids. What looks like a number or a
+/// range is one; "=3" is the part called 3. InvalidArgument names the piece that is wrong. At most 1,000,000
+/// ids.
+Result<Selection> parse_region_list(std::string_view text);
 
 /// "x0,y0,z0,x1,y1,z1".
 Result<Box> parse_box(std::string_view text);

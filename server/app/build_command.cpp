@@ -21,7 +21,7 @@ volatile std::sig_atomic_t g_interrupted = 0;
 
 std::filesystem::path output_path(const BuildCommand& command) {
   if (!command.pack.empty()) return command.pack;
-  return command.store / (command.model.stem().string() + ".selvage");
+  return command.store / (command.segmentation.model.stem().string() + ".selvage");
 }
 
 std::string count_of(std::uint32_t count, const char* one, const char* many) {
@@ -51,6 +51,7 @@ void print_json(const BuildCommand& command, const std::filesystem::path& path, 
       {"bytes", pack.bytes().size()},
       {"bits", command.bits},
       {"regions", model.regions},
+      {"names", model.names},
       {"vertices", directory.vertices},
       {"triangles", directory.triangles},
       {"boundary_triangles", directory.boundary_triangles},
@@ -83,6 +84,10 @@ void print_summary(const std::filesystem::path& path, const IngestedModel& model
   fmt::print("  {} vertices, {} triangles in {}, {} boundary triangles ({:.1f} %)\n", directory.vertices,
              directory.triangles, count_of(model.regions, "region", "regions"), directory.boundary_triangles,
              100.0 * directory.boundary_triangles / std::max(directory.triangles, 1u));
+  if (model.names > 0) {
+    fmt::print("  {}, for instance {}; selvage-client get --regions NAME\n",
+               count_of(model.names, "name", "names"), directory.names.front().name);
+  }
   fmt::print("  {} bytes, {:.2f} bits a vertex on a {}-bit grid\n", pack.bytes().size(),
              8 * bytes / std::max(directory.vertices, 1u), directory.grid.bits);
   fmt::print("  {:.3f} s ({}), peak memory {:.0f} MiB\n", total, stages, peak_memory_mib());
@@ -91,15 +96,23 @@ void print_summary(const std::filesystem::path& path, const IngestedModel& model
 }  // namespace
 
 Result<void> run(const BuildCommand& command) {
-  auto file = read_mesh(command.model);
+  auto file = read_mesh(command.segmentation.model);
   if (!file) return forward_error(file);
-  for (const std::string& note : file->notes) fmt::print(stderr, "{}: {}\n", command.model.string(), note);
+  for (const std::string& note : file->notes)
+    fmt::print(stderr, "{}: {}\n", command.segmentation.model.string(), note);
 
   // Ctrl-C ends the work between stages; nothing has been written then.
   std::signal(SIGINT, [](int) { g_interrupted = 1; });
-  const std::string name = command.name.empty() ? command.model.stem().string() : command.name;
-  const IngestOptions options{name,         command.units,   command.metadata,
-                              command.bits, command.segment, command.lossless};
+  const std::string name = command.name.empty() ? command.segmentation.model.stem().string() : command.name;
+  auto parts = command.segmentation.load_parts(*file);
+  if (!parts) return forward_error(parts);
+  const IngestOptions options{name,
+                              command.units,
+                              command.metadata,
+                              command.bits,
+                              std::move(*parts),
+                              command.segmentation.segment,
+                              command.lossless};
   ProgressLine line;
   auto model =
       ingest(file->soup, options, threaded_for(command.threads), [&](const std::string& stage, double done) {
@@ -107,12 +120,12 @@ Result<void> run(const BuildCommand& command) {
         return g_interrupted == 0;
       });
   line.wipe();
-  if (!model) return forward_error(model, command.model.string());
+  if (!model) return forward_error(model, command.segmentation.model.string());
 
   const std::filesystem::path path = output_path(command);
   const std::string_view bytes(reinterpret_cast<const char*>(model->pack.data()), model->pack.size());
   if (auto ok = replace_file(path, bytes); !ok) return forward_error(ok, path.string());
-  print_repair(model->repair, command.model.string());
+  print_repair(model->repair, command.segmentation.model.string());
   auto pack = Pack::open(path);
   if (!pack) return forward_error(pack);
   if (command.json) {

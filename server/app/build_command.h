@@ -6,13 +6,12 @@
 #include <string>
 
 #include "common/base/result.h"
-#include "server/segment/segment.h"
+#include "server/app/segmentation_options.h"
 
 namespace selvage {
 
 /// `selvage-pack build`: a mesh file in, a pack out.
 struct BuildCommand {
-  std::filesystem::path model;
   std::filesystem::path pack;   ///< -o; empty: the model's stem with .selvage in the current folder ...
   std::filesystem::path store;  ///< --store; ... or in this folder
   std::string name, units;      ///< name empty: the model's stem
@@ -21,7 +20,7 @@ struct BuildCommand {
   bool lossless = false;
   unsigned threads = 0;
   bool json = false;
-  SegmentOptions segment;
+  SegmentationOptions segmentation;
 };
 
 /// Writes the pack and prints what it holds on stdout; notes about the input go to stderr.

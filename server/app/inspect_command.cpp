@@ -76,7 +76,11 @@ void print_json(const Pack& pack, const ByteShares& shares) {
         {"joins", shares.joins},
         {"headers", shares.headers},
         {"directory", shares.directory}}},
+      {"names", nlohmann::ordered_json::object()},
       {"regions", nlohmann::ordered_json::array()}};
+  for (const NamedRegions& named : directory.names) {
+    for (const auto& [first, last] : named.ranges) json["names"][named.name].push_back({first, last});
+  }
   for (RegionId id = 0; id < directory.regions.size(); ++id) {
     if (!directory.regions[id].levels.empty())
       json["regions"].push_back(region_json(id, directory.regions[id], grid));

@@ -10,7 +10,7 @@
 #include "server/app/build_command.h"
 #include "server/app/inspect_command.h"
 #include "server/app/sample_command.h"
-#include "server/app/segmentation_options.h"
+#include "server/app/segment_command.h"
 #include "server/app/simplify_command.h"
 
 namespace {
@@ -18,11 +18,11 @@ namespace {
 using selvage::BuildCommand;
 using selvage::InspectCommand;
 using selvage::SampleCommand;
+using selvage::SegmentCommand;
 using selvage::SimplifyCommand;
 
 void add_build(CLI::App& app, BuildCommand& command) {
   CLI::App& build = *app.add_subcommand("build", "Segment and encode a mesh into a pack");
-  build.add_option("MODEL", command.model, "mesh: .ply .obj .off .stl .wrl .om")->required();
   auto* pack = build.add_option("-o,--output", command.pack,
                                 "the pack to write (default: MODEL's name with .selvage)");
   build.add_option("--store", command.store, "put the pack into this folder, which a server serves")
@@ -38,14 +38,60 @@ void add_build(CLI::App& app, BuildCommand& command) {
   build.add_option("--threads", command.threads, "0: all cores; the pack is the same for any number")
       ->capture_default_str();
   build.add_flag("--json", command.json, "print the result as JSON");
-  selvage::add_segmentation_options(build, command.segment);
+  command.segmentation.add_to(build);
   build.footer(
       "Examples:\n"
       "  selvage-pack build bunny.ply\n"
       "  selvage-pack build engine.stl --store packs --bits 16 --units mm --meta author 'R. Roe'\n"
       "  selvage-pack build statue.obj -o statue.selvage --regions 12\n"
       "  selvage-pack build fandisk.off --mode cad --max-region 2000\n"
-      "  selvage-pack build scan.ply --min-region 500 --max-region 20000 --smooth --json");
+      "  selvage-pack build scan.ply --min-region 500 --max-region 20000 --smooth --json\n"
+      "  selvage-pack build car.obj --segment-by groups      then: selvage-client unpack car.selvage "
+      "--regions "
+      "wheel_left -o wheel.ply\n"
+      "  selvage-pack build horse.off --segment-by labels horse.seg");
+}
+
+void add_segment(CLI::App& app, SegmentCommand& command) {
+  using selvage::SegmentFormat;
+  const std::map<std::string, SegmentFormat> formats = {
+      {"seg", SegmentFormat::Seg}, {"ply", SegmentFormat::Ply}, {"json", SegmentFormat::Json}};
+  const std::map<std::string, selvage::UpAxis> axes = {{"y", selvage::UpAxis::Y}, {"z", selvage::UpAxis::Z}};
+  CLI::App& segment = *app.add_subcommand("segment", "Write a mesh's regions, without making a pack");
+  segment.add_option("-o,--output", command.output, "one region number a triangle, in the file's order");
+  auto* format =
+      segment
+          .add_option("--format", command.format,
+                      "seg: a number a line; ply: the mesh in the regions' colours; json: numbers, names and "
+                      "counts (default: what the extension of OUT says, else seg)")
+          ->transform(CLI::CheckedTransformer(formats, CLI::ignore_case));
+  segment
+      .add_flag_callback(
+          "--ply", [&command] { command.format = SegmentFormat::Ply; }, "the same as --format ply")
+      ->excludes(format);
+  segment.add_option("--png", command.png, "draw the regions from several sides, borders in black");
+  segment.add_option("--up", command.up, "the axis that points up in pictures")
+      ->transform(CLI::CheckedTransformer(axes, CLI::ignore_case))
+      ->default_str("y");
+  segment.add_option("--size", command.size, "pixels of one picture's width")
+      ->check(CLI::Range(64, 4096))
+      ->capture_default_str();
+  segment.add_flag("--hierarchy", command.hierarchy,
+                   "print every merge of regions with its saliency (xmrg, cad)");
+  segment.add_option("--threads", command.threads, "0: all cores; the regions are the same for any number")
+      ->capture_default_str();
+  segment.add_flag("--json", command.json, "print the result as JSON");
+  command.segmentation.add_to(segment);
+  segment.footer(
+      "Polygons count as the triangles of their fan. A triangle between regions takes the region that two of "
+      "its\n"
+      "corners share; one that repeats a vertex takes its predecessor's.\n"
+      "Examples:\n"
+      "  selvage-pack segment horse.off -o horse.seg\n"
+      "  selvage-pack segment horse.off -o horse.ply --png horse.png --regions 12\n"
+      "  selvage-pack segment fandisk.off --mode cad --png fandisk.png --up z\n"
+      "  selvage-pack segment car.obj --segment-by groups -o car.json\n"
+      "  selvage-pack segment horse.off --hierarchy");
 }
 
 void add_inspect(CLI::App& app, InspectCommand& command) {
@@ -71,7 +117,8 @@ void add_simplify(CLI::App& app, SimplifyCommand& command) {
   using selvage::FlipTest;
   const std::map<std::string, CollapseCost> costs = {
       {"md", CollapseCost::PlaneDistance}, {"ea", CollapseCost::EdgeArea}, {"qem", CollapseCost::Quadric}};
-  const std::map<std::string, FlipTest> flips = {{"normal", FlipTest::Normal}, {"concave", FlipTest::Concave}};
+  const std::map<std::string, FlipTest> flips = {{"normal", FlipTest::Normal},
+                                                 {"concave", FlipTest::Concave}};
   CLI::App& simplify = *app.add_subcommand("simplify", "Write a mesh with fewer triangles");
   simplify.add_option("MODEL", command.model, "mesh: .ply .obj .off .stl .wrl .om")->required();
   simplify.add_option("-o,--output", command.output, "the mesh to write; the extension names the format")
@@ -115,15 +162,18 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", SELVAGE_VERSION);
   app.require_subcommand(1);
   BuildCommand build;
+  SegmentCommand segment;
   InspectCommand inspect;
   SimplifyCommand simplify;
   SampleCommand sample;
   add_build(app, build);
+  add_segment(app, segment);
   add_inspect(app, inspect);
   add_sample(app, sample);
   add_simplify(app, simplify);
   CLI11_PARSE(app, argc, argv);
   if (app.got_subcommand("build")) return finish(run(build));
+  if (app.got_subcommand("segment")) return finish(run(segment));
   if (app.got_subcommand("inspect")) return finish(run(inspect));
   if (app.got_subcommand("sample")) return finish(run(sample));
   return finish(run(simplify));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "common/mesh/boundary_loops.h"
 #include "server/encode/bundle_encoder.h"
 #include "server/encode/region_encoder.h"
 
@@ -37,21 +38,25 @@ VerticesByRegion group_vertices(const Partition& partition) {
   return grouped;
 }
 
-/// The weld group of every vertex that shares its source with another, kNone for all others; groups are
-/// numbered by first vertex. Empty if there is none.
-std::vector<std::uint32_t> find_weld_groups(std::span<const VertexId> source_of_vertex) {
+/// The weld group of every vertex that shares its source with another, kNone for all others. Groups are
+/// numbered along the mesh's borders, so that those along the rim of a part differ by one from each to the
+/// next; then come what copies lie inside. Empty if there is none.
+std::vector<std::uint32_t> find_weld_groups(const CornerTable& table,
+                                            std::span<const VertexId> source_of_vertex) {
   if (source_of_vertex.empty()) return {};
   const VertexId sources = *std::max_element(source_of_vertex.begin(), source_of_vertex.end()) + 1;
   std::vector<std::uint32_t> copies(sources, 0);
   for (VertexId source : source_of_vertex) ++copies[source];
   std::vector<std::uint32_t> group_of_source(sources, kNone), group_of_vertex(source_of_vertex.size(), kNone);
   std::uint32_t groups = 0;
-  for (VertexId v = 0; v < source_of_vertex.size(); ++v) {
+  const auto add = [&](VertexId v) {
     const VertexId source = source_of_vertex[v];
-    if (copies[source] < 2) continue;
+    if (copies[source] < 2) return;
     if (group_of_source[source] == kNone) group_of_source[source] = groups++;
     group_of_vertex[v] = group_of_source[source];
-  }
+  };
+  for (VertexId v : find_boundary_loops(table).vertices) add(v);
+  for (VertexId v = 0; v < source_of_vertex.size(); ++v) add(v);
   if (groups == 0) group_of_vertex.clear();
   return group_of_vertex;
 }
@@ -75,7 +80,7 @@ class ModelEncoder {
         grid_(grid),
         hooks_(hooks),
         by_region_(group_vertices(source.partition)),
-        weld_group_(find_weld_groups(source.source_of_vertex)),
+        weld_group_(find_weld_groups(source.table, source.source_of_vertex)),
         boundary_index_(source.positions.size(), kNone),
         local_of_triangle_(source.table.triangle_count(), kNone) {
     for (RegionId region = 1; region <= source.partition.region_count; ++region) {

@@ -10,6 +10,7 @@
 #include "common/mesh/grid.h"
 #include "common/pack/pack.h"
 #include "server/encode/model_encoder.h"
+#include "server/ingest/segment_model.h"
 #include "server/ingest/spatial_order.h"
 #include "server/segment/partition.h"
 
@@ -52,8 +53,23 @@ SourceCounts count_source(const TriangleSoup& soup, const RepairReport& report) 
   counts.dropped_triangles = report.dropped_triangles;
   counts.unreferenced_vertices = report.unreferenced_vertices;
   counts.flipped_triangles = report.turned_triangles;
-  counts.cut_vertices = report.vertex_copies;
   return counts;
+}
+
+std::vector<NamedRegions> to_ranges(const std::map<std::string, std::vector<RegionId>>& regions_of_name) {
+  std::vector<NamedRegions> names;
+  for (const auto& [name, regions] : regions_of_name) {
+    names.push_back({name, {}});
+    for (RegionId region : regions) {
+      auto& ranges = names.back().ranges;
+      if (!ranges.empty() && ranges.back().last + 1 == region) {
+        ranges.back().last = region;
+      } else {
+        ranges.push_back({region, region});
+      }
+    }
+  }
+  return names;
 }
 
 bool are_floats(const std::vector<Vec3>& positions) {
@@ -86,11 +102,16 @@ Result<IngestedModel> ingest(const TriangleSoup& soup, const IngestOptions& opti
     return fail(ErrorCode::InvalidArgument,
                 "a coordinate has more digits than a float32 holds, so it cannot be kept bit for bit");
   }
+  model.repair = repaired->report;
+  if (!options.parts.of_triangle.empty()) {
+    *repaired =
+        clock.run("cut", [&] { return cut_along_parts(std::move(*repaired), options.parts.of_triangle); });
+  }
   const RepairedMesh mesh = clock.run("order", [&] { return spatially_ordered(std::move(*repaired)); });
   if (clock.is_cancelled()) return cancelled();
-  const SegmentOptions sized = with_streaming_sizes(options.segment, mesh.table.triangle_count());
-  const Segmentation segmentation =
-      clock.run("segment", [&] { return segment(mesh.table, mesh.positions, sized, parallel); });
+  NamedSegmentation named =
+      clock.run("segment", [&] { return segment_model(mesh, options.parts, options.segment, parallel); });
+  const Segmentation& segmentation = named.regions;
   if (clock.is_cancelled()) return cancelled();
   const Partition partition = clock.run("partition", [&] {
     return make_partition(mesh.table, segmentation.region_of_vertex, segmentation.region_count);
@@ -112,8 +133,10 @@ Result<IngestedModel> ingest(const TriangleSoup& soup, const IngestOptions& opti
   directory.source = count_source(soup, mesh.report);
   directory.vertices = directory.source.vertices - directory.source.unreferenced_vertices;
   directory.triangles = mesh.table.triangle_count();
+  directory.source.cut_vertices = static_cast<std::uint32_t>(mesh.positions.size()) - directory.vertices;
+  directory.names = to_ranges(named.regions_of_name);
+  model.names = static_cast<std::uint32_t>(directory.names.size());
   model.pack = clock.run("assemble", [&] { return assemble_pack(std::move(directory), encoded.parts); });
-  model.repair = mesh.report;
   model.regions = partition.region_count;
   model.loose_vertices = static_cast<std::uint32_t>(
       std::count(partition.region_of_vertex.begin(), partition.region_of_vertex.end(), kLooseRegion));

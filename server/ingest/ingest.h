@@ -13,6 +13,7 @@
 #include "common/base/parallel.h"
 #include "common/coding/byte_io.h"
 #include "common/mesh/triangle_soup.h"
+#include "server/ingest/parts.h"
 #include "server/ingest/repair.h"
 #include "server/segment/segment.h"
 
@@ -23,8 +24,9 @@ struct IngestOptions {
   std::string units;                            ///< "mm", "m" ...; empty if unknown
   std::map<std::string, std::string> metadata;  ///< travels in the directory as it is
   int bits = 14;                                ///< grid bits along the longest side, 8..24
-  SegmentOptions segment;                       ///< large models get streaming sizes, see with_streaming_sizes
-  bool lossless = false;                        ///< keep float32 positions bit for bit besides the grid
+  Parts parts;             ///< the user's own, which then make the regions; none: the shape does
+  SegmentOptions segment;  ///< large models get streaming sizes, see with_streaming_sizes
+  bool lossless = false;   ///< keep float32 positions bit for bit besides the grid
 };
 
 struct StageTime {
@@ -37,6 +39,7 @@ struct IngestedModel {
   RepairReport repair;
   std::vector<StageTime> times;
   std::uint32_t regions = 0;
+  std::uint32_t names = 0;  ///< of parts
   std::uint32_t loose_vertices = 0;
 };
 

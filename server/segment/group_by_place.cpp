@@ -2,8 +2,8 @@
 #include "server/segment/group_by_place.h"
 
 #include <algorithm>
+#include <compare>
 #include <limits>
-#include <utility>
 
 #include "common/base/ids.h"
 
@@ -20,6 +20,13 @@ std::uint64_t spread_bits(std::uint64_t x) {
   x = (x | x << 2) & 0x1249249249249249;
   return x;
 }
+
+struct Dust {
+  std::uint32_t part;
+  std::uint64_t place;  ///< Morton code
+  std::uint32_t component;
+  friend auto operator<=>(const Dust&, const Dust&) = default;
+};
 
 struct Box {
   Vec3 low{1, 1, 1}, high{};
@@ -52,25 +59,29 @@ std::uint64_t morton_code(const Vec3& p, const Box& box) {
 }  // namespace
 
 std::vector<std::uint32_t> group_by_place(const Components& components, std::span<const Vec3> positions,
-                                          std::uint32_t min_vertices) {
+                                          std::uint32_t min_vertices,
+                                          std::span<const std::uint32_t> part_of_component) {
   std::vector<Vec3> centre(components.count());
   for (std::size_t v = 0; v < positions.size(); ++v) {
     const std::uint32_t component = components.of_vertex[v];
     centre[component] += positions[v] * (1.0 / components.vertex_count[component]);
   }
   const Box box = box_of(positions);
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> dust;  // Morton code, component
+  std::vector<Dust> dust;
   for (std::uint32_t i = 0; i < components.count(); ++i) {
-    if (components.vertex_count[i] < min_vertices) dust.emplace_back(morton_code(centre[i], box), i);
+    const std::uint32_t part = part_of_component.empty() ? 0 : part_of_component[i];
+    if (components.vertex_count[i] >= min_vertices || part == kNone) continue;
+    dust.push_back({part, morton_code(centre[i], box), i});
   }
   std::sort(dust.begin(), dust.end());
 
   std::vector<std::uint32_t> group_of_component(components.count(), kNone);
   std::uint32_t group = 0, vertices = 0;
-  for (const auto& [code, component] : dust) {
-    group_of_component[component] = group;
-    vertices += components.vertex_count[component];
-    if (vertices >= min_vertices) ++group, vertices = 0;
+  for (std::size_t i = 0; i < dust.size(); ++i) {
+    const bool is_new_part = i > 0 && dust[i].part != dust[i - 1].part;
+    if (vertices >= min_vertices || (is_new_part && vertices > 0)) ++group, vertices = 0;
+    group_of_component[dust[i].component] = group;
+    vertices += components.vertex_count[dust[i].component];
   }
   return group_of_component;
 }

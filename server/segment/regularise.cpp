@@ -43,6 +43,22 @@ void make_dust_whole(const Components& components, const std::vector<std::uint32
   }
 }
 
+/// kNone for a component of several parts. Empty if there are no parts.
+std::vector<std::uint32_t> parts_of_components(const Components& components,
+                                               std::span<const std::uint32_t> part_of_vertex) {
+  if (part_of_vertex.empty()) return {};
+  std::vector<std::uint32_t> part_of_component(components.count(), kNone);
+  std::vector<bool> is_seen(components.count(), false);
+  for (std::size_t v = 0; v < part_of_vertex.size(); ++v) {
+    const std::uint32_t component = components.of_vertex[v];
+    std::uint32_t& part = part_of_component[component];
+    if (!is_seen[component]) part = part_of_vertex[v];
+    if (part != part_of_vertex[v]) part = kNone;
+    is_seen[component] = true;
+  }
+  return part_of_component;
+}
+
 /// The piece that each vertex's only fan belongs to, kNone for vertices without interior triangle.
 std::vector<std::uint32_t> pieces_of_vertices(const CornerTable& mesh, const Pieces& pieces) {
   std::vector<std::uint32_t> piece_of_vertex(mesh.vertex_count(), kNone);
@@ -75,9 +91,11 @@ Segmentation number_regions(const std::vector<std::uint32_t>& piece_of_vertex, s
 }  // namespace
 
 Segmentation regularise(const CornerTable& mesh, std::span<const std::uint32_t> label_of_vertex,
-                        const RegulariseOptions& options, std::span<const Vec3> positions) {
+                        const RegulariseOptions& options, std::span<const Vec3> positions,
+                        std::span<const std::uint32_t> part_of_vertex) {
   const Components components = find_components(mesh);
-  const auto group_of_component = group_by_place(components, positions, options.min_component_vertices);
+  const auto group_of_component = group_by_place(components, positions, options.min_component_vertices,
+                                                 parts_of_components(components, part_of_vertex));
   DenseLabels labels = make_dense(label_of_vertex);
   make_dust_whole(components, group_of_component, labels);
 

@@ -39,8 +39,11 @@ struct RegulariseOptions {
 };
 
 /// Any labels will do: values mean nothing, vertices of equal label want to be together. Linear time and
-/// memory apart from sorting labels and dust. `positions` only tell which dust lies together.
+/// memory apart from sorting labels and dust. `positions` only tell which dust lies together. Where
+/// `part_of_vertex` is stated, dust keeps to it: components share a region only within a part, and a
+/// component of several parts is no dust.
 Segmentation regularise(const CornerTable& mesh, std::span<const std::uint32_t> label_of_vertex,
-                        const RegulariseOptions& options, std::span<const Vec3> positions);
+                        const RegulariseOptions& options, std::span<const Vec3> positions,
+                        std::span<const std::uint32_t> part_of_vertex = {});
 
 }  // namespace selvage

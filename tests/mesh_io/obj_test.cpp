@@ -56,6 +56,31 @@ TEST(Obj, DropsWhatIsNoSurfaceAndNotesIt) {
   EXPECT_EQ(file.notes.size(), 8u);
 }
 
+TEST(Obj, NamesTriangles) {
+  const MeshFile file = parse_good(
+      parse_obj, kThree + "f 1 2 3\ng a b\nf 1 2 3 1\no Big Wheel\nf 1 2 3\ng\nf 1 2 3\no\ng b a\nusemtl red\n"
+                          "usemtl\nf 1 2 3\n");
+  EXPECT_EQ(file.group_of_triangle, (std::vector<std::uint32_t>{0, 1, 1, 2, 3, 1}));
+  ASSERT_EQ(file.groups.size(), 4u);
+  EXPECT_TRUE(file.groups[0].groups.empty());
+  EXPECT_EQ(file.groups[0].object, kNone);
+  ASSERT_EQ(file.groups[1].groups.size(), 2u);
+  EXPECT_EQ(file.names[file.groups[1].groups[0]], "a");
+  EXPECT_EQ(file.names[file.groups[1].groups[1]], "b");
+  EXPECT_EQ(file.names[file.groups[2].object], "Big Wheel");
+  EXPECT_EQ(file.groups[1].material, kNone);
+  EXPECT_TRUE(parse_good(parse_obj, kThree + "f 1 2 3\n").group_of_triangle.empty());
+}
+
+TEST(Obj, BoundsWhatNamesTake) {
+  std::string many = "g";
+  for (int i = 0; i < 40; ++i) many += " n" + std::to_string(i);
+  const MeshFile file = parse_good(parse_obj, kThree + many + "\nusemtl " + std::string(5000, 'x') + "\nf 1 2 3\n");
+  EXPECT_EQ(file.groups.at(0).groups.size(), 16u);
+  EXPECT_EQ(file.names.at(file.groups[0].material).size(), 255u);
+  EXPECT_TRUE(has_note(file, "more than 16 groups at once"));
+}
+
 TEST(Obj, RefusesMalformedNumbersWithTheirLine) {
   for (const std::string bad : {"nan", "inf", "1e999", "one", "1.0.0", "0,5"}) {
     expect_error(parse_obj, kThree + "v 0 " + bad + " 0\nf 1 2 3\n",

@@ -84,5 +84,55 @@ TEST(Pack, RefusesANewerMajorVersionClearly) {
   EXPECT_EQ(pack.error().code, ErrorCode::Unsupported);
 }
 
+/// A directory of five regions with these names, written and parsed again.
+Result<Directory> reparsed(const std::vector<NamedRegions>& names) {
+  Directory directory = Pack::from_bytes(fake_pack_bytes(5)).value()->directory();
+  directory.names = names;
+  const DirectoryBytes written = write_directory(directory);
+  return parse_directory(written.bytes, written.summary_size);
+}
+
+TEST(Directory, KeepsTheNamesOfParts) {
+  const std::vector<NamedRegions> names = {
+      {"", {{2, 2}}}, {"Big Wheel", {{1, 1}, {3, 5}}}, {"wheel", {{1, 5}}}, {"wheels", {{5, 5}}}};
+  EXPECT_EQ(reparsed(names)->names, names);
+  EXPECT_TRUE(reparsed({})->names.empty());
+}
+
+TEST(Directory, RefusesNamesThatCannotBe) {
+  const std::vector<std::vector<NamedRegions>> impossible = {
+      {{"a", {}}},                         // of no region
+      {{"a", {{0, 1}}}},                   // of the loose region
+      {{"a", {{1, 6}}}},                   // of a region that is not there
+      {{"a", {{6, 6}}}},                   //
+      {{"a", {{2, 4000000000u}}}},         //
+      {{"a", {{1, 2}, {2, 3}}}},           // twice
+      {{"a", {{1, 2}, {3, 3}}}},           // touching
+      {{"a", {{3, 4}, {1, 1}}}},           // out of order
+      {{"a", {{3, 2}}}},                   // backwards
+      {{"b", {{1, 1}}}, {"a", {{1, 1}}}},  // unsorted
+      {{"a", {{1, 1}}}, {"a", {{2, 2}}}},  // stated twice
+      {{std::string(5000, 'x'), {{1, 1}}}},
+  };
+  for (std::size_t i = 0; i < impossible.size(); ++i) EXPECT_FALSE(reparsed(impossible[i])) << i;
+}
+
+TEST(Directory, RefusesEveryTruncationOfItsNames) {
+  Directory directory = Pack::from_bytes(fake_pack_bytes(5)).value()->directory();
+  directory.names = {{"left", {{1, 2}, {4, 5}}}, {"right", {{3, 3}}}};
+  const DirectoryBytes written = write_directory(directory);
+  Directory without = directory;
+  without.names.clear();
+  const std::uint32_t plain = write_directory(without).summary_size;
+  for (std::uint32_t size = plain + 1; size < written.summary_size; ++size) {
+    std::vector<std::byte> bytes(written.bytes.begin(), written.bytes.begin() + size);
+    bytes.insert(bytes.end(), written.bytes.begin() + written.summary_size, written.bytes.end());
+    EXPECT_FALSE(parse_directory(bytes, size)) << size;
+  }
+  std::vector<std::byte> longer = written.bytes;
+  longer.insert(longer.begin() + written.summary_size, std::byte{0});
+  EXPECT_FALSE(parse_directory(longer, written.summary_size + 1));
+}
+
 }  // namespace
 }  // namespace selvage

@@ -58,11 +58,30 @@ TEST(Selection, NamesARegionThatIsNotThere) {
 }
 
 TEST(Selection, ParsesListsAndBoxes) {
-  EXPECT_EQ(parse_region_list("3,5-7").value(), (std::vector<RegionId>{3, 5, 6, 7}));
-  for (const char* bad : {"", "3,", "7-5", "a", "1-", "-1", "1-4000000000"})
+  EXPECT_EQ(parse_region_list("3,5-7")->ids, (std::vector<RegionId>{3, 5, 6, 7}));
+  EXPECT_EQ(parse_region_list("4294967295")->ids, (std::vector<RegionId>{4294967295u}));
+  for (const char* bad : {"", "3,", "7-5", "1-", "-1", "1-4000000000", "=", ",a"})
     EXPECT_FALSE(parse_region_list(bad)) << bad;
   EXPECT_EQ(parse_box("1,2,3,0,5,-6")->min.z, -6);
   for (const char* bad : {"", "1,2,3", "1,2,3,4,5,x", "1,2,3,4,5,inf"}) EXPECT_FALSE(parse_box(bad)) << bad;
+}
+
+TEST(Selection, ParsesNamesBesideNumbers) {
+  const Selection listed = parse_region_list("wheel_left,3,Big Wheel,5-6,=7,a-1").value();
+  EXPECT_EQ(listed.kind, Selection::Kind::Ids);
+  EXPECT_EQ(listed.ids, (std::vector<RegionId>{3, 5, 6}));
+  EXPECT_EQ(listed.names, (std::vector<std::string>{"wheel_left", "Big Wheel", "7", "a-1"}));
+}
+
+TEST(Selection, ResolvesNamesToTheirRegions) {
+  Directory directory = row_of_five();
+  directory.names = {{"a", {{1, 2}, {5, 5}}}, {"b", {{4, 4}}}};
+  const Selection all = resolve_names(directory, parse_region_list("b,a,3").value()).value();
+  EXPECT_EQ(select_regions(directory, all).value(), (std::vector<RegionId>{1, 2, 3, 4, 5}));
+  const auto missing = resolve_names(directory, parse_region_list("c").value());
+  ASSERT_FALSE(missing);
+  EXPECT_EQ(missing.error().code, ErrorCode::NotFound);
+  EXPECT_NE(missing.error().message.find("'c'; there are a, b"), std::string::npos);
 }
 
 }  // namespace
