@@ -135,6 +135,18 @@ void print_hierarchy(const RegionHierarchy& hierarchy, double stop) {
   }
 }
 
+void print_names(const std::map<std::string, std::vector<RegionId>>& regions_of_name) {
+  constexpr std::size_t kShown = 50;
+  std::size_t shown = 0;
+  for (const auto& [name, regions] : regions_of_name) {
+    if (shown++ == kShown) {
+      fmt::print("  and {} more names; --json lists them\n", regions_of_name.size() - kShown);
+      return;
+    }
+    fmt::print("  {}: {}\n", name, fmt::join(regions, ","));
+  }
+}
+
 Result<void> check(const SegmentCommand& command) {
   const SegmentMode mode = command.segmentation.segment.mode;
   if (command.output.empty() && command.png.empty() && !command.hierarchy) {
@@ -170,8 +182,7 @@ Result<void> run(const SegmentCommand& command) {
   fmt::print("{}: {} regions, {} triangles, {} of them between regions, {} loose vertices\n",
              command.segmentation.model.string(), regions.region_count, model->soup.triangles.size(),
              model->boundary_triangles, regions.loose_vertex_count);
-  for (const auto& [name, list] : model->named.regions_of_name)
-    fmt::print("  {}: {}\n", name, fmt::join(list, ","));
+  print_names(model->named.regions_of_name);
   if (command.hierarchy)
     print_hierarchy(hierarchy_of(command, model->mesh), command.segmentation.segment.stop_saliency);
   return {};
