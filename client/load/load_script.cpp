@@ -37,10 +37,9 @@ Result<LoadStep> parse_get(const std::vector<std::string>& words) {
   }
   if (words.size() != 2) return fail(ErrorCode::BadFile, "write: get all, get 3,5-7 or get random 20%");
   if (words[1] == "all") return step;
-  auto ids = parse_region_list(words[1]);
-  if (!ids) return fail(ErrorCode::BadFile, ids.error().message);
-  step.selection.kind = Selection::Kind::Ids;
-  step.selection.ids = std::move(*ids);
+  auto selection = parse_region_list(words[1]);
+  if (!selection) return fail(ErrorCode::BadFile, selection.error().message);
+  step.selection = std::move(*selection);
   return step;
 }
 

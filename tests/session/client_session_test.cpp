@@ -300,7 +300,8 @@ TEST(ClientSession, RequestsOverlap) {
   SessionHarness harness;
   harness.folder().put("row.selvage", fake_pack_bytes(50, 20'000));
   const auto work = [](std::unique_ptr<ByteStream> stream) -> Work {
-    const auto session = co_await ClientSession::start(std::move(stream), {});
+    ClientOptions options;
+    const auto session = co_await ClientSession::start(std::move(stream), std::move(options));
     const auto manifest = (co_await (*session)->open("row")).value();
     int running = 5;
     Signal all_done(co_await asio::this_coro::executor);
