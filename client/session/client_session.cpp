@@ -89,7 +89,7 @@ asio::awaitable<Result<void>> ClientSession::greet() {
   hello.software = options_.software;
   hello.initial_credit = options_.window_bytes;
   const std::vector<std::byte> bytes = to_frame(hello, 0);
-  const Pieces pieces{bytes};
+  const Pieces pieces(1, bytes);
   Result<void> written = co_await stream_->write(pieces);
   if (!written) co_return written;
   Result<std::optional<Frame>> frame = co_await read_frame(*stream_, incoming_);
@@ -239,7 +239,7 @@ asio::awaitable<void> ClientSession::write_loop() {
       continue;
     }
     const std::vector<std::byte> bytes = std::exchange(outgoing_, {});
-    const Pieces pieces{bytes};
+    const Pieces pieces(1, bytes);
     const Result<void> written = co_await stream_->write(pieces);
     if (!written) co_return;
   }
@@ -326,7 +326,7 @@ asio::awaitable<Result<std::vector<ModelInfo>>> ClientSession::list() {
     ModelsReader reader;
     ListModels request;
     if (!all.empty()) request.after = all.back().name;
-    Result<void> answered = co_await exchange(std::move(request), reader, {});
+    Result<void> answered = co_await exchange(std::move(request), reader, std::stop_token());
     if (!answered) co_return forward_error(answered);
     Models page = reader.take();
     if (!all.empty() && !page.models.empty() && page.models.front().name <= all.back().name) {
@@ -341,7 +341,7 @@ asio::awaitable<Result<std::vector<ModelInfo>>> ClientSession::list() {
 asio::awaitable<Result<std::shared_ptr<const Manifest>>> ClientSession::open(std::string name) {
   ManifestReader reader(name, options_.max_directory_bytes);
   OpenModel request{std::move(name)};
-  Result<void> answered = co_await exchange(std::move(request), reader, {});
+  Result<void> answered = co_await exchange(std::move(request), reader, std::stop_token());
   if (!answered) co_return forward_error(answered);
   Result<Manifest> manifest = reader.manifest();
   if (!manifest) co_return forward_error(manifest);
@@ -378,7 +378,7 @@ asio::awaitable<Result<GetStats>> ClientSession::get(GetRequest request, OnPart 
 asio::awaitable<Result<std::chrono::steady_clock::duration>> ClientSession::ping() {
   const auto start = std::chrono::steady_clock::now();
   PongReader reader;
-  Result<void> answered = co_await exchange(Ping{}, reader, {});
+  Result<void> answered = co_await exchange(Ping(), reader, std::stop_token());
   if (!answered) co_return forward_error(answered);
   co_return std::chrono::steady_clock::now() - start;
 }

@@ -147,13 +147,19 @@ asio::awaitable<Result<void>> Session::handle(Frame frame) {
       wake_writer_.notify();
       co_return outbox_.grant(credit->bytes);
     }
-    case FrameType::Cancel:
+    case FrameType::Cancel: {
+      const Result<Cancel> request = parse<Cancel>(frame.payload);
+      if (!request) co_return tl::unexpected(request.error());
       // A cancel may cross the end of its request on the way: then there is nothing left to do.
       if (outbox_.cancel(id)) send_error(Error{ErrorCode::Cancelled, "cancelled"}, id);
       co_return Result<void>();
-    case FrameType::Ping:
+    }
+    case FrameType::Ping: {
+      const Result<Ping> request = parse<Ping>(frame.payload);
+      if (!request) co_return tl::unexpected(request.error());
       send(Pong{}, id);
       co_return Result<void>();
+    }
     case FrameType::Reprioritise:
       co_return Result<void>();
     default:

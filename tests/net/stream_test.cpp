@@ -72,8 +72,9 @@ TEST(FrameIo, TellsACleanEndFromACutFrame) {
   run([]() -> asio::awaitable<void> {
     // Not a list in braces: g++ 12 loses the array behind one in a coroutine.
     static constexpr std::size_t kCuts[] = {0, 5, kFrameHeaderSize, kFrameHeaderSize + 2};
+    const asio::any_io_executor executor = co_await asio::this_coro::executor;
     for (const std::size_t cut : kCuts) {
-      auto [here, there] = make_memory_streams(co_await asio::this_coro::executor);
+      auto [here, there] = make_memory_streams(executor);
       const auto frame = to_frame(OpenModel{"bunny"}, 1);
       Pieces pieces;
       pieces.push_back(frame);

@@ -360,7 +360,10 @@ TEST_P(NthOperation, FailingEndsBothSidesInGoodOrder) {
     SessionHarness harness({}, options);
     harness.folder().put("row.selvage", fake_pack_bytes(10, 8'000));
     harness.run(use_everything(harness.connect(), succeeded));
-    EXPECT_TRUE(!succeeded || !fault->happened() || harness.session().reason()) << n;
+    // A client whose stream fails once all is said just leaves; a server must know why it ended.
+    if (GetParam()) {
+      EXPECT_TRUE(!succeeded || !fault->happened() || harness.session().reason()) << n;
+    }
   }
   EXPECT_GT(n, 10u);
 }

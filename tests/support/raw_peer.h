@@ -45,7 +45,7 @@ class RawPeer {
   }
 
   asio::awaitable<void> send_bytes(std::vector<std::byte> bytes) {
-    const Pieces pieces{bytes};
+    const Pieces pieces(1, bytes);
     const Result<void> written = co_await stream_->write(pieces);
     broken_ |= !written;
   }
