@@ -6,6 +6,9 @@
 #include "common/pack/pack.h"
 
 namespace selvage {
+
+static_assert(kUsualUrgency == kDefaultUrgency);
+
 namespace {
 
 tl::unexpected<Error> out_of_place(const Frame& frame) {
@@ -90,8 +93,8 @@ Result<Manifest> ManifestReader::manifest() const {
 // ---- parts
 // ---------------------------------------------------------------------------------------------------
 
-PartsReader::PartsReader(std::shared_ptr<const Manifest> manifest, OnPart on_part)
-    : manifest_(std::move(manifest)), on_part_(std::move(on_part)) {}
+PartsReader::PartsReader(const GetRequest& request, OnPart on_part)
+    : manifest_(request.manifest), unfinished_(request.unfinished), on_part_(std::move(on_part)) {}
 
 Result<PartsReader> PartsReader::for_request(const GetRequest& request, OnPart on_part) {
   const Directory& directory = request.manifest->directory;
@@ -101,7 +104,7 @@ Result<PartsReader> PartsReader::for_request(const GetRequest& request, OnPart o
   std::vector<Hash> have = request.have;
   std::ranges::sort(have);
 
-  PartsReader reader(request.manifest, std::move(on_part));
+  PartsReader reader(request, std::move(on_part));
   reader.expected_.reserve(ids->size());
   for (const PartId& id : *ids) {
     const PartRef* ref = directory.find(id);
@@ -136,13 +139,22 @@ Result<bool> PartsReader::on_begin(const Frame& frame) {
     return fail(ErrorCode::BadStream,
                 "the server sends a part that was not asked for: " + name_of(begin->id));
   }
-  if (begin->size != found->ref->size || begin->hash != found->ref->hash || begin->offset != 0) {
+  if (begin->size != found->ref->size || begin->hash != found->ref->hash) {
     return fail(ErrorCode::BadStream,
                 "the server sends another part than the directory lists: " + name_of(begin->id));
   }
+  bytes_.clear();
+  if (unfinished_) {
+    // Not taken away: another part may have the same bytes.
+    const auto front = unfinished_->find(begin->hash);
+    if (front != unfinished_->end()) bytes_ = front->second;
+  }
+  if (begin->offset == 0) bytes_.clear();  // a server need not take up a part where it broke off
+  if (begin->offset != bytes_.size()) {
+    return fail(ErrorCode::BadStream, "the server leaves out the front of " + name_of(begin->id));
+  }
   found->begun = true;
   current_ = &*found;
-  bytes_.clear();
   return false;
 }
 
@@ -151,12 +163,12 @@ Result<bool> PartsReader::on_data(const Frame& frame) {
   auto fits = check_data(frame, current_->ref->size - bytes_.size());
   if (!fits) return forward_error(fits);
   bytes_.insert(bytes_.end(), frame.payload.begin(), frame.payload.end());
+  stats_.bytes += frame.payload.size();
   if (!frame.ends()) return false;
 
   auto whole = checks_hashes_ ? check_part(*current_->ref, bytes_) : Result<void>();
   if (!whole) return forward_error(whole, name_of(current_->id));
   ++stats_.parts;
-  stats_.bytes += bytes_.size();
   on_part_(std::exchange(current_, nullptr)->id, std::exchange(bytes_, {}));
   return false;
 }
@@ -170,6 +182,12 @@ Result<bool> PartsReader::on_end(const Frame& frame) {
                                           " parts after " + std::to_string(stats_.parts));
   }
   return true;
+}
+
+void PartsReader::leave_unfinished() {
+  if (!current_ || !unfinished_ || bytes_.empty()) return;
+  unfinished_->insert_or_assign(current_->ref->hash, std::move(bytes_));
+  current_ = nullptr;
 }
 
 }  // namespace selvage

@@ -15,20 +15,11 @@
 #include <string>
 #include <vector>
 
+#include "client/session/get_request.h"
 #include "common/net/frame.h"
 #include "common/net/messages.h"
-#include "common/pack/directory.h"
-#include "common/pack/selection.h"
 
 namespace selvage {
-
-/// A model as the client opened it.
-struct Manifest {
-  std::string name;
-  Hash pack_id;
-  Directory directory;
-  std::uint64_t directory_bytes = 0;
-};
 
 class AnswerReader {
  public:
@@ -69,20 +60,6 @@ class ManifestReader final : public AnswerReader {
   std::vector<std::byte> bytes_;
 };
 
-/// What a get brought.
-struct GetStats {
-  std::uint32_t parts = 0;  ///< received
-  std::uint64_t bytes = 0;  ///< of them
-  std::uint32_t held = 0;   ///< not sent, because the client said it has them
-};
-
-struct GetRequest {
-  std::shared_ptr<const Manifest> manifest;
-  Selection selection;
-  std::vector<Hash> have;
-  std::uint8_t urgency = kDefaultUrgency;
-};
-
 class PartsReader final : public AnswerReader {
  public:
   /// Called for every whole part that matches its hash, in the order of arrival.
@@ -97,6 +74,9 @@ class PartsReader final : public AnswerReader {
   Result<bool> on_frame(const Frame& frame) override;
   const GetStats& stats() const { return stats_; }
 
+  /// The answer breaks off here: what has come of a part goes where the request said.
+  void leave_unfinished();
+
  private:
   struct Expected {
     PartId id;
@@ -104,12 +84,13 @@ class PartsReader final : public AnswerReader {
     bool begun = false;
   };
 
-  PartsReader(std::shared_ptr<const Manifest> manifest, OnPart on_part);
+  PartsReader(const GetRequest& request, OnPart on_part);
   Result<bool> on_begin(const Frame& frame);
   Result<bool> on_data(const Frame& frame);
   Result<bool> on_end(const Frame& frame);
 
   std::shared_ptr<const Manifest> manifest_;
+  std::shared_ptr<UnfinishedParts> unfinished_;
   OnPart on_part_;
   std::vector<Expected> expected_;  ///< ascending by id
   const Expected* current_ = nullptr;

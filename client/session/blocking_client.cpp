@@ -6,6 +6,8 @@
 #include <mutex>
 #include <thread>
 
+#include <boost/asio/bind_cancellation_slot.hpp>
+#include <boost/asio/cancellation_signal.hpp>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/io_context.hpp>
@@ -78,10 +80,21 @@ class BlockingClient::Network {
     return asio::co_spawn(io_, std::move(work), asio::use_future).get();
   }
 
-  Result<void> connect(const HostPort& server, ClientOptions options) {
-    auto session = wait_for(ClientSession::connect(server, std::move(options)));
-    if (!session) return forward_error(session);
-    session_ = std::move(*session);
+  Result<void> connect(const HostPort& server, ClientOptions options, const std::stop_token& stop) {
+    const auto cancels = std::make_shared<asio::cancellation_signal>();
+    auto connecting = asio::co_spawn(io_, ClientSession::connect(server, std::move(options)),
+                                     asio::bind_cancellation_slot(cancels->slot(), asio::use_future));
+    const std::stop_callback on_stop(stop, [this, cancels] {
+      asio::post(io_, [cancels] { cancels->emit(asio::cancellation_type::terminal); });
+    });
+    try {
+      auto session = connecting.get();
+      if (session) session_ = std::move(*session);
+      if (!session && !stop.stop_requested()) return forward_error(session);
+    } catch (const boost::system::system_error&) {
+      // How a cancelled coroutine ends.
+    }
+    if (stop.stop_requested() || !session_) return fail(ErrorCode::Cancelled, "cancelled");
     return {};
   }
 
@@ -110,9 +123,10 @@ BlockingClient::~BlockingClient() = default;
 BlockingClient::BlockingClient(BlockingClient&&) noexcept = default;
 BlockingClient& BlockingClient::operator=(BlockingClient&&) noexcept = default;
 
-Result<BlockingClient> BlockingClient::connect(const HostPort& server, ClientOptions options) {
+Result<BlockingClient> BlockingClient::connect(const HostPort& server, ClientOptions options,
+                                               std::stop_token stop) {
   auto network = std::make_unique<Network>();
-  auto connected = network->connect(server, std::move(options));
+  auto connected = network->connect(server, std::move(options), stop);
   if (!connected) return forward_error(connected);
   return BlockingClient(std::move(network));
 }

@@ -22,8 +22,9 @@ namespace selvage {
 /// One thread at a time. Destroying it closes the connection; parts may outlive it.
 class BlockingClient {
  public:
-  /// Fails like ClientSession::connect.
-  static Result<BlockingClient> connect(const HostPort& server, ClientOptions options = {});
+  /// Fails like ClientSession::connect; Cancelled soon after `stop`.
+  static Result<BlockingClient> connect(const HostPort& server, ClientOptions options = {},
+                                        std::stop_token stop = {});
   ~BlockingClient();
   BlockingClient(BlockingClient&&) noexcept;
   BlockingClient& operator=(BlockingClient&&) noexcept;

@@ -15,7 +15,6 @@
 namespace selvage {
 namespace {
 
-constexpr std::size_t kReadSize = 256u << 10;
 /// Together they keep a GetParts below the size of a frame, whatever the server says its limits are.
 constexpr std::size_t kMaxIds = 65'536;
 constexpr std::size_t kMaxHave = 32'768;
@@ -43,7 +42,7 @@ Error error_in(const Frame& frame) {
 ClientSession::ClientSession(std::unique_ptr<ByteStream> stream, ClientOptions options)
     : stream_(std::move(stream)),
       options_(std::move(options)),
-      incoming_(kMaxPayload, kReadSize),
+      incoming_(kMaxPayload, options_.read_bytes),
       wake_writer_(stream_->executor()),
       greeting_(stream_->executor()),
       window_(options_.window_bytes) {}
@@ -53,6 +52,7 @@ asio::awaitable<Result<std::shared_ptr<ClientSession>>> ClientSession::connect(H
   Result<std::unique_ptr<ByteStream>> stream =
       co_await connect_tcp(server.host, server.port, options.connect_timeout);
   if (!stream) co_return forward_error(stream);
+  if (options.wrap_stream) *stream = options.wrap_stream(std::move(*stream));
   co_return co_await start(std::move(*stream), std::move(options));
 }
 
@@ -355,23 +355,30 @@ asio::awaitable<Result<GetStats>> ClientSession::get(GetRequest request, OnPart 
   }
   // The rest is sent again, which costs time and nothing else.
   if (request.have.size() > kMaxHave) request.have.resize(kMaxHave);
+  std::vector<PartialPart> partial;
+  if (request.unfinished) {
+    for (const auto& [hash, bytes] : *request.unfinished) {
+      if (partial.size() < kMaxHave) partial.push_back({hash, static_cast<std::uint32_t>(bytes.size())});
+    }
+  }
 
   auto deliver = [this, &on_part](const PartId& id, std::vector<std::byte> bytes) {
     const std::uint64_t size = bytes.size();
     window_.hold(size);
     on_part({id, std::move(bytes), Receipt(consumed_, size)});
   };
+  if (request.dial) request.urgency = request.dial->urgency();
   Result<PartsReader> reader = PartsReader::for_request(request, std::move(deliver));
   if (!reader) co_return forward_error(reader);
   if (!options_.check_hashes) reader->skip_hashes();
-  GetParts message{request.manifest->name,
-                   request.manifest->pack_id,
-                   std::move(request.selection),
-                   std::move(request.have),
-                   {},
-                   request.urgency};
+  GetParts message{request.manifest->name,  request.manifest->pack_id, std::move(request.selection),
+                   std::move(request.have), std::move(partial),        request.urgency};
   Result<void> answered = co_await exchange(std::move(message), *reader, std::move(stop));
-  if (!answered) co_return forward_error(answered);
+  if (!answered) {
+    reader->leave_unfinished();
+    co_return forward_error(answered);
+  }
+  if (request.unfinished) request.unfinished->clear();
   co_return reader->stats();
 }
 

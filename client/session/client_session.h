@@ -23,7 +23,9 @@
 #include <vector>
 
 #include "client/session/answer_reader.h"
+#include "client/session/client_options.h"
 #include "client/session/credit_window.h"
+#include "client/session/get_request.h"
 #include "common/net/byte_stream.h"
 #include "common/net/deadline.h"
 #include "common/net/frame.h"
@@ -32,23 +34,6 @@
 #include "common/net/tcp_stream.h"
 
 namespace selvage {
-
-struct ClientOptions {
-  std::string software = "selvage";
-  std::chrono::milliseconds connect_timeout{10'000};  ///< for the connection, and again for the greeting
-  std::chrono::milliseconds silence_timeout{30'000};  ///< a server that says nothing for so long is gone
-  std::uint64_t window_bytes = 8u << 20;              ///< see credit_window.h; at least kMinInitialCredit
-  std::uint64_t max_directory_bytes = 512u << 20;
-  bool check_hashes = true;  ///< false only for load tests
-};
-
-/// A whole part with the right hash. Destroying it (or its receipt) tells the server that there is room for
-/// more: keep it until it is decoded, on whichever thread that happens.
-struct ReceivedPart {
-  PartId id;
-  std::vector<std::byte> bytes;
-  Receipt receipt;
-};
 
 /// Single-strand: call everything on executor(). It lives until close() is called or the connection ends,
 /// even when nobody holds it.

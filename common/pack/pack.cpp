@@ -29,7 +29,23 @@ void write_header(ByteWriter& out, const PackHeader& header) {
   while (out.size() < kPackHeaderSize) out.u8(0);
 }
 
-Result<PackHeader> read_header(std::span<const std::byte> bytes) {
+}  // namespace
+
+/// A read-only private mapping of a whole file.
+class Pack::Mapping {
+ public:
+  Mapping(void* data, std::size_t size) : data_(data), size_(size) {}
+  ~Mapping() { munmap(data_, size_); }
+  Mapping(const Mapping&) = delete;
+  Mapping& operator=(const Mapping&) = delete;
+  std::span<const std::byte> bytes() const { return {static_cast<const std::byte*>(data_), size_}; }
+
+ private:
+  void* data_;
+  std::size_t size_;
+};
+
+Result<PackHeader> parse_pack_header(std::span<const std::byte> bytes, std::uint64_t file_size) {
   if (bytes.size() < kPackHeaderSize)
     return fail(ErrorCode::BadStream, "not a selvage pack: too short for a header");
   ByteReader in(bytes.first(kPackHeaderSize));
@@ -49,31 +65,15 @@ Result<PackHeader> read_header(std::span<const std::byte> bytes) {
   header.file_size = in.u64();
   const auto id = in.take(Hash::kSize);
   std::memcpy(header.id.bytes.data(), id.data(), Hash::kSize);
-  if (header.file_size != bytes.size()) {
+  if (header.file_size != file_size) {
     return fail(ErrorCode::BadStream, "truncated or padded pack: its header says " +
                                           std::to_string(header.file_size) + " bytes, there are " +
-                                          std::to_string(bytes.size()));
+                                          std::to_string(file_size));
   }
-  if (header.directory_size > bytes.size() - kPackHeaderSize)
+  if (header.directory_size > file_size - kPackHeaderSize)
     return fail(ErrorCode::BadStream, "directory reaches past the end of the pack", 16);
   return header;
 }
-
-}  // namespace
-
-/// A read-only private mapping of a whole file.
-class Pack::Mapping {
- public:
-  Mapping(void* data, std::size_t size) : data_(data), size_(size) {}
-  ~Mapping() { munmap(data_, size_); }
-  Mapping(const Mapping&) = delete;
-  Mapping& operator=(const Mapping&) = delete;
-  std::span<const std::byte> bytes() const { return {static_cast<const std::byte*>(data_), size_}; }
-
- private:
-  void* data_;
-  std::size_t size_;
-};
 
 Pack::Pack() = default;
 Pack::~Pack() = default;
@@ -107,7 +107,7 @@ Result<std::shared_ptr<const Pack>> Pack::from_bytes(std::vector<std::byte> byte
 }
 
 Result<void> Pack::parse() {
-  auto header = read_header(bytes_);
+  auto header = parse_pack_header(bytes_, bytes_.size());
   if (!header) return forward_error(header);
   header_ = *header;
   auto directory = parse_directory(directory_bytes(), header_.summary_size);

@@ -25,12 +25,16 @@ struct PackHeader {
   Hash id;
 };
 
+/// Reads the header from the first bytes of a file of `file_size` bytes. Unsupported (newer major version),
+/// BadStream.
+Result<PackHeader> parse_pack_header(std::span<const std::byte> front, std::uint64_t file_size);
+
 /// A mapped pack. Thread-safe: everything is const. Shared, so that a pack replaced in the store keeps
 /// serving the sessions that already opened it.
 class Pack {
  public:
-  /// Maps the file and parses header and directory; parts are not touched. Errors name the file: NotFound, Io,
-  /// Unsupported (newer major version), BadStream (anything malformed or truncated).
+  /// Maps the file and parses header and directory; parts are not touched. Errors name the file: NotFound,
+  /// Io, Unsupported (newer major version), BadStream (anything malformed or truncated).
   static Result<std::shared_ptr<const Pack>> open(const std::filesystem::path& path);
   /// The same over bytes in memory, which it keeps.
   static Result<std::shared_ptr<const Pack>> from_bytes(std::vector<std::byte> bytes);

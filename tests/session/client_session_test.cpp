@@ -215,6 +215,69 @@ TEST_F(LyingServer, LeavingAfterGoAway) {
   EXPECT_EQ(stats.error().message, "maintenance");
 }
 
+TEST_F(LyingServer, AFrontLeftOutThatNobodyHas) {
+  const auto stats = get_from([](RawPeer& server, const Pack& pack) -> Work {
+    PartBegin begin = begin_2(pack);
+    begin.offset = 500;
+    co_await server.send(begin, 2, 0);
+  });
+  EXPECT_EQ(stats.error().code, ErrorCode::BadStream);
+}
+
+// ---- answers that break off
+// ----------------------------------------------------------------------------------
+
+/// The session of a real server breaks at its nth operation; the same get over a new connection brings the
+/// rest.
+TEST(ClientSession, TakesUpAPartWhereTheLastConnectionLeftIt) {
+  constexpr std::uint32_t kPartSize = 300'000;
+  std::uint64_t resumed_bytes = 0;
+  for (std::size_t n = 4; n < 14; ++n) {
+    auto unfinished = std::make_shared<UnfinishedParts>();
+    std::vector<Hash> have;
+    std::uint64_t received = 0;
+    const auto work = [&](std::unique_ptr<ByteStream> stream) -> Work {
+      ClientOptions options;
+      const auto session = co_await ClientSession::start(std::move(stream), options);
+      if (!session) co_return;
+      const auto manifest = co_await (*session)->open("row");
+      if (manifest) {
+        GetRequest request;
+        request.manifest = *manifest;
+        request.have = have;
+        request.unfinished = unfinished;
+        auto on_part = [&have](ReceivedPart part) { have.push_back(hash_of(part.bytes)); };
+        const auto stats = co_await (*session)->get(std::move(request), std::move(on_part));
+        if (stats) received = stats->bytes;
+      }
+      (*session)->close();
+    };
+    MemoryStreamOptions breaking;
+    breaking.capacity = 100'000;
+    breaking.first_fault->fails_at = n;
+    SessionHarness first({}, breaking), second;
+    first.folder().put("row.selvage", fake_pack_bytes(3, kPartSize));
+    second.folder().put("row.selvage", fake_pack_bytes(3, kPartSize));
+    first.run(work(first.connect()));
+    const std::size_t finished = have.size();
+    std::uint64_t left = 0;
+    for (const auto& [hash, bytes] : *unfinished) left += bytes.size();
+    second.run(work(second.connect()));
+    EXPECT_EQ(have.size(), 5u);
+    EXPECT_TRUE(unfinished->empty()) << "done with";
+    if (finished < 5) {
+      EXPECT_GT(received, 0u);
+    }
+    std::uint64_t finished_bytes = 0;
+    for (std::size_t i = 0; i < finished; ++i) finished_bytes += i % 2 == 0 ? kPartSize : 3;
+    if (left > 0) {
+      EXPECT_EQ(received + left + finished_bytes, 3 * kPartSize + 2 * 3) << n;
+    }
+    resumed_bytes += left;
+  }
+  EXPECT_GT(resumed_bytes, 0u) << "no connection broke inside a part";
+}
+
 TEST(ClientSession, GivesUpOnAServerThatDoesNotGreet) {
   SessionHarness harness;
   auto [client_end, server_end] = make_memory_streams(harness.executor());
