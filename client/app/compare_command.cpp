@@ -22,9 +22,9 @@ Result<Input> read_input(const std::filesystem::path& path) {
     if (!file) return forward_error(file);
     return Input{std::move(file->soup), std::nullopt};
   }
-  auto model = fetch_from_pack(path, {});
+  auto model = load_model(path.string());
   if (!model) return forward_error(model);
-  return Input{std::move(model->mesh.soup), model->directory.grid};
+  return Input{std::move(model->fetched.mesh.soup), model->directory.grid};
 }
 
 void print_json(const MeshComparison& comparison, double tolerance, double step) {

@@ -14,8 +14,9 @@
 namespace selvage {
 namespace {
 
-std::vector<Rgb> region_colours(const FetchedModel& model) {
-  const auto neighbours = neighbouring_regions(model.mesh.soup.triangles, model.mesh.region_of_vertex);
+std::vector<Rgb> region_colours(const LoadedModel& model) {
+  const auto neighbours =
+      neighbouring_regions(model.fetched.mesh.soup.triangles, model.fetched.mesh.region_of_vertex);
   return colours_of_regions(static_cast<std::uint32_t>(model.directory.regions.size()), neighbours);
 }
 
@@ -33,24 +34,24 @@ StitchedMesh up_to_region(const StitchedMesh& mesh, RegionId last) {
   return part;
 }
 
-std::vector<Panel> draw_sides(const FetchedModel& model, const DrawCommand& command) {
-  const RegionPaint paint =
-      paint_regions(model.mesh.soup.triangles, model.mesh.region_of_vertex, region_colours(model));
+std::vector<Panel> draw_sides(const LoadedModel& model, const DrawCommand& command) {
+  const RegionPaint paint = paint_regions(model.fetched.mesh.soup.triangles,
+                                          model.fetched.mesh.region_of_vertex, region_colours(model));
   const RenderOptions options{.label_px = command.labels ? command.size / 32.0 : 0};
-  return render_views(scene_of(model.mesh, paint), four_sides(command.up), command.size, command.size * 3 / 4,
-                      options);
+  return render_views(scene_of(model.fetched.mesh, paint), four_sides(command.up), command.size,
+                      command.size * 3 / 4, options);
 }
 
-std::vector<Panel> draw_arrival(const FetchedModel& model, const DrawCommand& command) {
+std::vector<Panel> draw_arrival(const LoadedModel& model, const DrawCommand& command) {
   const std::vector<Rgb> colours = region_colours(model);
   const Camera camera =
-      fit_camera(model.mesh.soup.positions, {.up = command.up}, command.size, command.size * 3 / 4);
+      fit_camera(model.fetched.mesh.soup.positions, {.up = command.up}, command.size, command.size * 3 / 4);
   const std::uint32_t regions = model.directory.real_region_count();
   const auto steps = std::min(static_cast<std::uint32_t>(command.steps), regions);
   std::vector<Panel> panels;
   for (std::uint32_t step = 1; step <= steps; ++step) {
     const RegionId last = static_cast<RegionId>(std::uint64_t{regions} * step / steps);
-    const StitchedMesh part = up_to_region(model.mesh, last);
+    const StitchedMesh part = up_to_region(model.fetched.mesh, last);
     const RegionPaint paint = paint_regions(part.soup.triangles, part.region_of_vertex, colours);
     panels.push_back(
         {render(scene_of(part, paint), camera),
@@ -64,18 +65,15 @@ std::vector<Panel> draw_arrival(const FetchedModel& model, const DrawCommand& co
 Result<void> run(const DrawCommand& command) {
   auto selection = command.selection.selection();
   if (!selection) return forward_error(selection);
-  ProgressLine line;
-  auto model =
-      fetch(command.source, {*selection, 0}, [&](std::uint32_t parts, std::uint32_t of, std::uint64_t) {
-        line.show(fmt::format("{} of {} parts", parts, of));
-      });
+  auto model = load_model(command.source, *selection, command.options);
   if (!model) return forward_error(model);
+  ProgressLine line;
   line.show("drawing");
   const std::vector<Panel> panels =
       command.steps > 0 ? draw_arrival(*model, command) : draw_sides(*model, command);
-  const Image sheet =
-      make_sheet(panels, {.title = fmt::format("{}: {} regions, {} triangles", model->directory.name,
-                                               model->regions, model->mesh.soup.triangles.size())});
+  const Image sheet = make_sheet(
+      panels, {.title = fmt::format("{}: {} regions, {} triangles", model->directory.name,
+                                    model->fetched.regions, model->fetched.mesh.soup.triangles.size())});
   line.wipe();
   if (auto ok = write_png(command.output, sheet); !ok) return ok;
   fmt::print("{}: {} x {} pixels\n", command.output.string(), sheet.width, sheet.height);

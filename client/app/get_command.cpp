@@ -5,56 +5,57 @@
 #include <nlohmann/json.hpp>
 
 #include "client/app/model_source.h"
-#include "common/base/progress_line.h"
 #include "common/mesh_io/write_mesh.h"
 
 namespace selvage {
 namespace {
 
-void print_json(const GetCommand& command, const FetchedModel& model) {
-  const nlohmann::ordered_json json = {{"output", command.output.string()},
-                                       {"model", model.directory.name},
-                                       {"regions", model.regions},
-                                       {"of_regions", model.directory.real_region_count()},
-                                       {"vertices", model.mesh.soup.positions.size()},
-                                       {"triangles", model.mesh.soup.triangles.size()},
-                                       {"of_triangles", model.directory.triangles},
-                                       {"parts", model.parts},
-                                       {"part_bytes", model.part_bytes},
-                                       {"directory_bytes", model.directory_bytes},
-                                       {"seconds_to_first_region", model.time_to_first_region.count()},
-                                       {"seconds_to_mesh", model.time_to_mesh.count()}};
+void print_json(const GetCommand& command, const LoadedModel& model) {
+  const FetchedModel& got = model.fetched;
+  const nlohmann::ordered_json json = {
+      {"output", command.output.string()},
+      {"model", model.directory.name},
+      {"regions", got.regions},
+      {"of_regions", model.directory.real_region_count()},
+      {"vertices", got.mesh.soup.positions.size()},
+      {"triangles", got.mesh.soup.triangles.size()},
+      {"of_triangles", model.directory.triangles},
+      {"parts", got.parts + got.cached_parts},
+      {"part_bytes", got.bytes + got.cached_bytes},
+      {"cached_parts", got.cached_parts},
+      {"cached_bytes", got.cached_bytes},
+      {"directory_bytes", model.directory_bytes},
+      {"retries", got.retries},
+      {"seconds_to_first_region", (model.time_to_open + got.time_to_first_region).count()},
+      {"seconds_to_mesh", (model.time_to_open + got.time_to_mesh).count()}};
   fmt::print("{}\n", json.dump(2));
 }
 
-void print_text(const GetCommand& command, const FetchedModel& model) {
+void print_text(const GetCommand& command, const LoadedModel& model) {
+  const FetchedModel& got = model.fetched;
   fmt::print("{}: {} vertices, {} of {} triangles, {} of {} regions\n", command.output.string(),
-             model.mesh.soup.positions.size(), model.mesh.soup.triangles.size(), model.directory.triangles,
-             model.regions, model.directory.real_region_count());
-  fmt::print(
-      "  {} bytes in {} parts, and {} of directory; first region after {:.1f} ms, stitched after {:.1f} ms\n",
-      model.part_bytes, model.parts, model.directory_bytes, 1e3 * model.time_to_first_region.count(),
-      1e3 * model.time_to_mesh.count());
+             got.mesh.soup.positions.size(), got.mesh.soup.triangles.size(), model.directory.triangles,
+             got.regions, model.directory.real_region_count());
+  fmt::print("  {} bytes in {} parts, and {} of directory", got.bytes, got.parts, model.directory_bytes);
+  if (got.cached_parts > 0)
+    fmt::print("; {} bytes in {} parts were cached", got.cached_bytes, got.cached_parts);
+  if (got.retries > 0) fmt::print("; connected again {} times", got.retries);
+  fmt::print("\n  first region after {:.1f} ms, stitched after {:.1f} ms\n",
+             1e3 * (model.time_to_open + got.time_to_first_region).count(),
+             1e3 * (model.time_to_open + got.time_to_mesh).count());
 }
 
 }  // namespace
 
 Result<void> run(const GetCommand& command) {
+  // Before anything is fetched: what would fail at the end anyway.
+  if (auto ok = check_writable(command.output); !ok) return ok;
   auto selection = command.selection.selection();
   if (!selection) return forward_error(selection);
-  const FetchOptions options{*selection, command.threads};
-  ProgressLine line;
-  auto model =
-      command.from_pack
-          ? fetch_from_pack(command.source, options)
-          : fetch_from_server(command.source, options,
-                              [&](std::uint32_t parts, std::uint32_t of, std::uint64_t bytes) {
-                                line.show(fmt::format("{} of {} parts, {} KiB", parts, of, bytes / 1024));
-                              });
-  line.wipe();
+  auto model = load_model(command.source, *selection, command.options);
   if (!model) return forward_error(model);
-  if (auto ok = write_mesh(command.output, model->mesh.soup, {.comment = provenance(model->directory)}); !ok)
-    return ok;
+  auto ok = write_mesh(command.output, model->fetched.mesh.soup, {.comment = provenance(model->directory)});
+  if (!ok) return ok;
   if (command.json) {
     print_json(command, *model);
   } else {

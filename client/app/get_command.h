@@ -5,16 +5,16 @@
 #include <string>
 
 #include "client/app/selection_options.h"
+#include "client/app/source_options.h"
 
 namespace selvage {
 
 /// `selvage-client get` and `unpack`: chosen regions, decoded and stitched, as one mesh file.
 struct GetCommand {
-  std::string source;      ///< get: HOST:PORT/MODEL; unpack: a pack
-  bool from_pack = false;  ///< unpack
+  std::string source;  ///< HOST:PORT/MODEL, a URL, or a pack
   std::filesystem::path output;
   SelectionOptions selection;
-  unsigned threads = 0;
+  SourceOptions options;
   bool json = false;
 };
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "client/app/model_source.h"
-#include "client/session/blocking_client.h"
+#include "client/fetch/list_models.h"
 
 namespace selvage {
 namespace {
@@ -39,12 +39,8 @@ std::string to_text(const std::vector<RegionRange>& ranges) {
 }  // namespace
 
 Result<void> run(const ListCommand& command) {
-  auto server = parse_host_port(command.server);
-  if (!server) return forward_error(server, command.server);
-  auto client = BlockingClient::connect(*server);
-  if (!client) return forward_error(client, command.server);
-  auto models = client->list();
-  if (!models) return forward_error(models, command.server);
+  auto models = list_models(command.server);
+  if (!models) return forward_error(models);
   if (command.json) {
     auto json = nlohmann::ordered_json::array();
     for (const ModelInfo& model : *models) json.push_back(to_json(model));
@@ -64,7 +60,7 @@ Result<void> run(const ListCommand& command) {
 }
 
 Result<void> run(const RegionsCommand& command) {
-  auto directory = fetch_directory(command.source);
+  auto directory = load_directory(command.source);
   if (!directory) return forward_error(directory);
   if (command.json) {
     auto json = nlohmann::ordered_json::array();

@@ -25,8 +25,9 @@ void add(CLI::App& app, ListCommand& command) {
 }
 
 void add(CLI::App& app, RegionsCommand& command) {
-  CLI::App& regions = *app.add_subcommand("regions", "List the regions of a model, and the names of its parts");
-  regions.add_option("SOURCE", command.source, "HOST:PORT/MODEL or a pack")->required();
+  CLI::App& regions =
+      *app.add_subcommand("regions", "List the regions of a model, and the names of its parts");
+  regions.add_option("SOURCE", command.source, "HOST:PORT/MODEL, a URL, or a pack")->required();
   regions.add_flag("--json", command.json, "print as JSON");
   regions.footer(
       "Examples:\n  selvage-client regions localhost:7878/bunny\n  selvage-client regions bunny.selvage "
@@ -35,28 +36,30 @@ void add(CLI::App& app, RegionsCommand& command) {
 
 void add_output(CLI::App& command, GetCommand& get) {
   command.add_option("-o,--output", get.output, "the mesh to write: .ply .obj .off .stl .om")->required();
-  command.add_option("--threads", get.threads, "that decode; 0: all cores")->capture_default_str();
   command.add_flag("--json", get.json, "print counts and times as JSON");
   get.selection.add_to(command);
+  get.options.add_to(command);
 }
 
 void add_get(CLI::App& app, GetCommand& command) {
   CLI::App& get = *app.add_subcommand("get", "Fetch regions from a server and write them as one mesh");
-  get.add_option("SOURCE", command.source, "HOST:PORT/MODEL")->required();
+  get.add_option("SOURCE", command.source,
+                 "HOST:PORT/MODEL, or http(s)://... for a pack on a web server that supports Range")
+      ->required();
   add_output(get, command);
   get.footer(
       "Examples:\n"
       "  selvage-client get localhost:7878/bunny -o bunny.ply\n"
       "  selvage-client get localhost:7878/bunny --regions 3,5-7 -o ears.obj\n"
       "  selvage-client get localhost:7878/car --regions wheel_left,wheel_right -o wheels.ply\n"
-      "  selvage-client get localhost:7878/site --box 0,0,0,10,10,3 --joins none -o room.stl");
+      "  selvage-client get localhost:7878/site --box 0,0,0,10,10,3 --joins none -o room.stl\n"
+      "  selvage-client get https://example.org/models/bunny.selvage --regions 3,5 -o ears.ply");
 }
 
 void add_unpack(CLI::App& app, GetCommand& command) {
   CLI::App& unpack = *app.add_subcommand("unpack", "The same as get, straight from a pack");
-  unpack.add_option("PACK", command.source, "a .selvage file")->required();
+  unpack.add_option("PACK", command.source, "a .selvage file")->required()->check(CLI::ExistingFile);
   add_output(unpack, command);
-  command.from_pack = true;
   unpack.footer(
       "Examples:\n"
       "  selvage-client unpack bunny.selvage -o bunny.ply\n"
@@ -67,7 +70,7 @@ void add(CLI::App& app, DrawCommand& command) {
   CLI::App& draw =
       *app.add_subcommand("draw", "Draw a model's regions, in colours and with their numbers, as a PNG");
   const std::map<std::string, UpAxis> axes = {{"y", UpAxis::Y}, {"z", UpAxis::Z}};
-  draw.add_option("SOURCE", command.source, "HOST:PORT/MODEL or a pack")->required();
+  draw.add_option("SOURCE", command.source, "HOST:PORT/MODEL, a URL, or a pack")->required();
   draw.add_option("-o,--output", command.output, "the picture to write")->required();
   draw.add_option("--steps", command.steps, "draw the model as it arrives, in so many pictures")
       ->check(CLI::Range(1, 100));
@@ -79,6 +82,7 @@ void add(CLI::App& app, DrawCommand& command) {
       ->default_str("y");
   draw.add_flag("!--no-labels", command.labels, "leave region numbers out");
   command.selection.add_to(draw);
+  command.options.add_to(draw);
   draw.footer(
       "Examples:\n"
       "  selvage-client draw bunny.selvage -o bunny.png\n"

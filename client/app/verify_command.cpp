@@ -7,6 +7,7 @@
 #include "client/app/model_source.h"
 #include "client/decode/region_decoder.h"
 #include "common/mesh/check_corner_table.h"
+#include "common/pack/pack.h"
 
 namespace selvage {
 namespace {
@@ -32,15 +33,16 @@ Result<void> verify_regions(const Pack& pack) {
 }
 
 Result<void> verify_whole(const std::filesystem::path& path) {
-  auto model = fetch_from_pack(path, {});
+  auto model = load_model(path.string());
   if (!model) return forward_error(model);
   const Directory& directory = model->directory;
-  const TriangleSoup& soup = model->mesh.soup;
+  const TriangleSoup& soup = model->fetched.mesh.soup;
   if (soup.positions.size() != directory.vertices || soup.triangles.size() != directory.triangles) {
     return fail(
         ErrorCode::BadStream,
         fmt::format("{}: stitched to {} vertices and {} triangles, but the directory promises {} and {}",
-                    path.string(), soup.positions.size(), soup.triangles.size(), directory.vertices, directory.triangles));
+                    path.string(), soup.positions.size(), soup.triangles.size(), directory.vertices,
+                    directory.triangles));
   }
   for (const auto& [a, b, c] : soup.triangles) {
     if (a == b || b == c || c == a)

@@ -12,12 +12,16 @@ ProgressLine::ProgressLine() : is_terminal_(::isatty(STDERR_FILENO) == 1) {}
 ProgressLine::~ProgressLine() { wipe(); }
 
 void ProgressLine::show(const std::string& text) {
-  const auto now = std::chrono::steady_clock::now();
-  if (!is_terminal_ || (is_shown_ && now - last_ < std::chrono::milliseconds(100))) return;
+  if (is_shown_ && std::chrono::steady_clock::now() - last_ < std::chrono::milliseconds(100)) return;
+  show_now(text);
+}
+
+void ProgressLine::show_now(const std::string& text) {
+  if (!is_terminal_) return;
   std::fprintf(stderr, "\r\033[K%s", text.c_str());
   std::fflush(stderr);
   is_shown_ = true;
-  last_ = now;
+  last_ = std::chrono::steady_clock::now();
 }
 
 void ProgressLine::wipe() {

@@ -16,6 +16,7 @@ class ProgressLine {
   ProgressLine& operator=(const ProgressLine&) = delete;
 
   void show(const std::string& text);
+  void show_now(const std::string& text);  ///< however little time has passed
   void wipe();
 
  private:

@@ -4,9 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstring>
 #include <string_view>
+
+#include <unistd.h>
 
 #include "common/mesh_io/openmesh_io.h"
 #include "common/base/replace_file.h"
@@ -131,6 +135,13 @@ Result<std::string> format_stl(const TriangleSoup& soup, const WriteOptions& opt
   return out;
 }
 
+constexpr std::array<std::string_view, 5> kExtensions = {".ply", ".obj", ".off", ".stl", ".om"};
+
+tl::unexpected<Error> unknown_extension(const std::string& extension) {
+  return fail(ErrorCode::Unsupported, "cannot write meshes with the extension " + quote(extension) +
+                                          "; known are .ply .obj .off .stl .om");
+}
+
 Result<std::string> format_mesh(const std::string& extension, const TriangleSoup& soup,
                                 const WriteOptions& options) {
   if (equals_ignoring_case(extension, ".ply")) return format_ply(soup, options);
@@ -138,11 +149,27 @@ Result<std::string> format_mesh(const std::string& extension, const TriangleSoup
   if (equals_ignoring_case(extension, ".off")) return format_off(soup, options);
   if (equals_ignoring_case(extension, ".stl")) return format_stl(soup, options);
   if (equals_ignoring_case(extension, ".om")) return format_om(soup);
-  return fail(ErrorCode::Unsupported, "cannot write meshes with the extension " + quote(extension) +
-                                          "; known are .ply .obj .off .stl .om");
+  return unknown_extension(extension);
 }
 
 }  // namespace
+
+Result<void> check_writable(const std::filesystem::path& path) {
+  const std::string extension = path.extension().string();
+  const auto is_it = [&](std::string_view known) { return equals_ignoring_case(extension, known); };
+  Result<void> ok;
+  std::error_code ignored;
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  if (std::ranges::none_of(kExtensions, is_it)) {
+    ok = unknown_extension(extension);
+  } else if (::access(folder.c_str(), W_OK | X_OK) != 0) {
+    ok = fail(ErrorCode::Io, std::string("cannot create a file there: ") + std::strerror(errno));
+  } else if (std::filesystem::is_directory(path, ignored)) {
+    ok = fail(ErrorCode::Io, "there is a folder of that name");
+  }
+  if (!ok) return forward_error(ok, path.string());
+  return {};
+}
 
 Result<void> write_mesh(const std::filesystem::path& path, const TriangleSoup& soup,
                         const WriteOptions& options) {

@@ -22,6 +22,10 @@ struct WriteOptions {
                         ///< bytes in .stl)
 };
 
+/// What write_mesh would fail at whatever the mesh: an extension that it does not know, a folder that is not
+/// there or cannot be written to. For asking before hours of work.
+Result<void> check_writable(const std::filesystem::path& path);
+
 /// Whole or not at all: a failure, such as a full disk, leaves the file that was there. Errors begin with the
 /// path.
 Result<void> write_mesh(const std::filesystem::path& path, const TriangleSoup& soup,

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#include "client/fetch/list_models.h"
+
+#include "client/session/blocking_client.h"
+
+namespace selvage {
+
+Result<std::vector<ModelInfo>> list_models(const std::string& server, const ClientOptions& options) {
+  auto address = parse_host_port(server);
+  if (!address) return forward_error(address);
+  auto client = BlockingClient::connect(*address, options);
+  if (!client) return forward_error(client, server);
+  auto models = client->list();
+  if (!models) return forward_error(models, server);
+  return models;
+}
+
+}  // namespace selvage
