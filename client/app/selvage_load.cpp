@@ -1,77 +1,109 @@
 // SPDX-License-Identifier: MIT
 //
 // selvage-load: many scripted clients against one server.
-#include <algorithm>
+#include <atomic>
+#include <csignal>
 #include <cstdio>
+
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
-#include "client/load/scripted_client.h"
+#include "client/app/load_output.h"
+#include "client/load/run_load.h"
+#include "common/base/replace_file.h"
 
 namespace {
 
 using namespace selvage;
 
 constexpr const char* kFooter =
-    "A script has one step a line; # starts a comment:\n"
-    "  list                  ask for the models\n"
-    "  open NAME             open a model\n"
-    "  get all               fetch everything; also: get 3,5-7 and get random 20%\n"
-    "  wait 50ms             think; also 2s\n"
-    "  repeat 10             start again; also: repeat forever\n"
+    "A script says which clients there are and what they do, one thing a line; docs/LOAD.md has all of it:\n"
+    "  duration 30s\n"
+    "  ramp 5s                      the clients start over this time\n"
+    "  client viewer 200            a kind of client, and how many\n"
+    "    link 20mbit 50ms           each has a link of its own\n"
+    "    every 500ms                a round starts on time, however long the last one took\n"
+    "    open bunny\n"
+    "    get random 20%\n"
+    "    think 20ms-200ms\n"
+    "    get all cancel after 300ms\n"
+    "    loop forever\n"
+    "  expect get p99 < 200ms\n"
+    "  expect errors = 0\n"
     "Example:\n"
-    "  printf 'open bunny\\nget random 20%\\nwait 50ms\\nget all\\nrepeat forever\\n' > visit.txt\n"
-    "  selvage-load localhost:7878 --script visit.txt --clients 100 --duration 30\n"
-    "Clients fetch and do not decode. Latency is from sending a request to its answer; it is not corrected "
-    "for\n"
-    "coordinated omission. Exit codes: 0 no client met an error, 1 some did, 2 nothing could be run.";
+    "  selvage-load localhost:7878 --script visit.load --chart visit.html\n"
+    "Exit codes: 0 as expected (without expectations: no errors), 1 not so, 2 nothing could be run.";
 
-double milliseconds(LatencyHistogram::Duration duration) {
-  return static_cast<double>(duration.count()) / 1e6;
+std::atomic<bool> g_interrupted = false;
+
+/// Thousands of clients need a descriptor each.
+void allow_many_files() {
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
+  limit.rlim_cur = limit.rlim_max;
+  ::setrlimit(RLIMIT_NOFILE, &limit);
 }
 
-nlohmann::ordered_json to_json(const LatencyHistogram& latency) {
-  return {{"count", latency.count()},
-          {"p50_ms", milliseconds(latency.percentile(0.5))},
-          {"p90_ms", milliseconds(latency.percentile(0.9))},
-          {"p99_ms", milliseconds(latency.percentile(0.99))},
-          {"max_ms", milliseconds(latency.max())}};
+void show_sample(const LoadSample& s) {
+  static int lines = 0;
+  if (lines++ % 20 == 0)
+    fmt::print(stderr, "{:>8} {:>8} {:>11} {:>9} {:>9} {:>9}\n", "time s", "clients", "requests/s", "MB/s",
+               "mean ms", "errors/s");
+  fmt::print(stderr, "{:>8.1f} {:>8} {:>11.0f} {:>9.1f} {:>9.2f} {:>9.1f}\n", s.seconds, s.clients,
+             s.requests_per_second, s.bytes_per_second / 1e6, s.mean_latency_ms, s.errors_per_second);
 }
 
-void print_json(const LoadReport& report) {
-  const double seconds = report.elapsed.count();
-  nlohmann::ordered_json json = {{"seconds", seconds},
-                                 {"requests", report.requests},
-                                 {"requests_per_second", static_cast<double>(report.requests) / seconds},
-                                 {"parts", report.parts},
-                                 {"part_bytes", report.bytes},
-                                 {"part_bytes_per_second", static_cast<double>(report.bytes) / seconds},
-                                 {"errors", report.errors},
-                                 {"time_to_first_region", to_json(report.first_region)}};
-  for (const auto& [kind, latency] : report.latency) json["latency"][kind] = to_json(latency);
-  fmt::print("{}\n", json.dump(2));
-}
+struct Outputs {
+  bool only_check = false;
+  bool json = false;
+  std::string csv, chart;
+};
 
-void print_row(const std::string& what, const LatencyHistogram& latency) {
-  fmt::print("{:<22} {:>9} {:>10.3f} {:>10.3f} {:>10.3f} {:>10.3f}\n", what, latency.count(),
-             milliseconds(latency.percentile(0.5)), milliseconds(latency.percentile(0.9)),
-             milliseconds(latency.percentile(0.99)), milliseconds(latency.max()));
-}
+Result<bool> run(const std::string& server, const std::string& script_path, LoadOptions options,
+                 std::optional<std::uint32_t> clients, const std::vector<std::string>& expected,
+                 const Outputs& outputs) {
+  auto address = parse_host_port(server);
+  if (!address) return forward_error(address);
+  auto script = read_load_script(script_path);
+  if (!script) return forward_error(script);
+  if (clients) {
+    if (script->kinds.size() > 1)
+      return fail(ErrorCode::InvalidArgument,
+                  "--clients is for scripts with one kind of client; say how many in the script");
+    script->kinds[0].count = *clients;
+  }
+  for (const std::string& text : expected) {
+    std::istringstream in(text);
+    auto expectation = parse_expectation({std::istream_iterator<std::string>(in), {}});
+    if (!expectation) return forward_error(expectation, "--expect");
+    script->expectations.push_back(std::move(*expectation));
+  }
+  if (outputs.only_check) return fmt::print("{}: sound\n", script_path), true;
+  options.server = *address;
+  const bool is_live = ::isatty(STDERR_FILENO) == 1;
+  std::stop_source stop;
+  options.on_sample = [&](const LoadSample& sample) {
+    if (is_live) show_sample(sample);
+    if (g_interrupted) stop.request_stop();
+  };
+  const LoadReport report = run_load(*script, options, stop.get_token());
 
-void print_text(const LoadReport& report) {
-  const double seconds = report.elapsed.count();
-  fmt::print("{} requests in {:.2f} s, {:.0f} a second; {} parts, {:.1f} MB/s\n\n", report.requests, seconds,
-             static_cast<double>(report.requests) / seconds, report.parts,
-             static_cast<double>(report.bytes) / seconds / 1e6);
-  fmt::print("{:<22} {:>9} {:>10} {:>10} {:>10} {:>10}\n", "latency, ms", "count", "p50", "p90", "p99",
-             "max");
-  for (const auto& [kind, latency] : report.latency) print_row(kind, latency);
-  print_row("time to first region", report.first_region);
-  for (const auto& [code, count] : report.errors)
-    fmt::print("\n{} clients stopped at an error: {}", count, code);
-  if (!report.errors.empty()) fmt::print("\n");
+  if (!outputs.csv.empty()) {
+    auto ok = replace_file(outputs.csv, load_csv(report));
+    if (!ok) return forward_error(ok, outputs.csv);
+  }
+  if (!outputs.chart.empty()) {
+    auto ok = replace_file(outputs.chart, load_chart(report, script_path + " against " + server));
+    if (!ok) return forward_error(ok, outputs.chart);
+  }
+  fmt::print(
+      "{}", outputs.json ? load_json(report, script->expectations) : load_text(report, script->expectations));
+  if (script->expectations.empty()) return report.total().error_count() == 0;
+  return std::ranges::all_of(script->expectations,
+                             [&](const Expectation& e) { return judge(e, report).is_met; });
 }
 
 }  // namespace
@@ -82,39 +114,38 @@ int main(int argc, char** argv) {
   app.footer(kFooter);
   std::string server, script_path;
   LoadOptions options;
+  std::optional<std::uint32_t> clients;
+  std::vector<std::string> expected;
   double seconds = 10;
-  bool json = false;
+  Outputs outputs;
   app.add_option("SERVER", server, "HOST:PORT")->required();
-  app.add_option("--script", script_path, "what each client does")->required()->type_name("FILE");
-  app.add_option("--clients", options.clients, "at the same time")
-      ->check(CLI::Range(1u, 20'000u))
-      ->capture_default_str();
-  app.add_option("--duration", seconds, "seconds after which no step begins")
+  app.add_option("--script", script_path, "what the clients do")->required()->type_name("FILE");
+  app.add_option("--clients", clients, "how many, where the script has one kind")
+      ->check(CLI::Range(1u, 50'000u));
+  app.add_option("--duration", seconds, "seconds after which no step begins, where the script does not say")
       ->check(CLI::Range(0.01, 86'400.0))
       ->capture_default_str();
   app.add_option("--max-requests", options.max_requests, "over all clients")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  app.add_option("--threads", options.threads, "for the network; 0: one")
-      ->check(CLI::Range(0u, 256u))
+  app.add_option("--threads", options.threads, "for the network")
+      ->check(CLI::Range(1u, 256u))
       ->capture_default_str();
-  app.add_flag("--json", json, "print as JSON");
+  app.add_option("--expect", expected, "one more expectation, as the script has them; may be repeated");
+  app.add_flag("--check", outputs.only_check,
+               "read the script and say whether it is sound; connect to nobody");
+  app.add_flag("--json", outputs.json, "print as JSON");
+  app.add_option("--csv", outputs.csv, "write samples, one a second, to a file")->type_name("FILE");
+  app.add_option("--chart", outputs.chart, "write a page with charts")->type_name("FILE.html");
   CLI11_PARSE(app, argc, argv);
 
-  auto address = parse_host_port(server);
-  auto script = read_load_script(script_path);
-  if (!address || !script) {
-    const Error& error = address ? script.error() : address.error();
-    std::fprintf(stderr, "selvage-load: %s\n", error.to_string().c_str());
+  allow_many_files();
+  std::signal(SIGINT, [](int) { g_interrupted = true; });
+  options.duration = std::chrono::milliseconds(static_cast<std::int64_t>(seconds * 1000));
+  auto as_expected = run(server, script_path, options, clients, expected, outputs);
+  if (!as_expected) {
+    std::fprintf(stderr, "selvage-load: %s\n", as_expected.error().to_string().c_str());
     return 2;
   }
-  options.server = *address;
-  options.duration = std::chrono::milliseconds(static_cast<std::int64_t>(seconds * 1000));
-  const LoadReport report = run_load(*script, options);
-  if (json) {
-    print_json(report);
-  } else {
-    print_text(report);
-  }
-  return report.errors.empty() ? 0 : 1;
+  return *as_expected ? 0 : 1;
 }

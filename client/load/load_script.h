@@ -1,16 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What a scripted client does, one step a line; `#` starts a comment:
-//
-//     list                     ask for the models
-//     open NAME                open a model; the first step but lists and waits
-//     get all                  fetch everything
-//     get 3,5-7                fetch these regions
-//     get random 20%           fetch a random share of the regions, another each time
-//     wait 50ms                think; also 2s
-//     repeat 10                start again from the top, so many times; `repeat forever` until the time is
-//     up.
-//                              At most one, at the end
+// What a load test does, as docs/LOAD.md describes it: kinds of clients, each with a list of steps, and what
+// is expected of the server. A script without `client` lines is one kind.
 #pragma once
 
 #include <chrono>
@@ -21,30 +12,59 @@
 #include <string_view>
 #include <vector>
 
+#include "client/load/expectation.h"
 #include "common/base/result.h"
 #include "common/pack/selection.h"
 
 namespace selvage {
 
 struct LoadStep {
-  enum class Kind : std::uint8_t { List, Open, Get, Wait };
+  enum class Kind : std::uint8_t { List, Open, Get, Think, Disconnect, Stall, Vanish, Garbage };
   Kind kind = Kind::List;
-  std::string model;                  ///< Open
+  std::string label;  ///< what it is called in reports: its words
+  std::string model;  ///< Open
+
   Selection selection;                ///< Get, unless random_percent is set
-  std::optional<int> random_percent;  ///< Get: 1..100
-  std::chrono::milliseconds pause{};  ///< Wait
+  std::optional<int> random_percent;  ///< Get: 1..100, of the regions, others each time
+  std::uint8_t urgency = 3;           ///< Get
+  /// Get: what has not come by then is cancelled.
+  std::optional<std::chrono::milliseconds> cancel_after;
+  /// Get: the connection is dropped once so many bytes of the answer have come; the rest comes over another.
+  std::optional<std::uint64_t> drop_after_bytes;
+
+  std::chrono::milliseconds think_least{}, think_most{};  ///< Think: a time in between, another each time
+
+  std::chrono::milliseconds stall{};  ///< Stall: how long a client that asks for everything reads nothing
+  std::uint64_t bytes = 0;            ///< Vanish: after how many it goes; Garbage: how many it sends
+};
+
+/// The link that each client of a kind has, emulated in this process.
+struct LinkShape {
+  std::uint64_t bytes_per_second = 0;  ///< towards the client; 0: as fast as it comes
+  std::chrono::milliseconds round_trip{};
+};
+
+struct ClientKind {
+  std::string name;
+  std::uint32_t count = 1;
+  LinkShape link;
+  /// A round starts every so often, however long the last one took; absent: when the last one ends.
+  std::optional<std::chrono::milliseconds> every;
+  bool decodes = false;
+  bool verifies = false;  ///< hashes, decodes and stitches everything
+  std::vector<LoadStep> steps;
+  std::optional<std::uint32_t> rounds = 1;  ///< absent: until the time is up
 };
 
 struct LoadScript {
-  std::vector<LoadStep> steps;
-  std::optional<std::uint32_t> rounds = 1;  ///< absent: forever
+  std::optional<std::chrono::milliseconds> duration;  ///< after which no step begins
+  std::chrono::milliseconds ramp{};                   ///< over which the clients start, evenly
+  std::vector<ClientKind> kinds;
+  std::vector<Expectation> expectations;
 };
 
 /// BadFile with the line that is wrong.
 Result<LoadScript> parse_load_script(std::string_view text);
 Result<LoadScript> read_load_script(const std::filesystem::path& path);
-
-/// The name that a kind of step goes by in reports.
-std::string_view to_string(LoadStep::Kind kind);
 
 }  // namespace selvage

@@ -1,38 +1,95 @@
 // SPDX-License-Identifier: MIT
-//
-// Runs a load script against a server and counts. Clients do not decode: the load is the server's.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <map>
-#include <string>
+#include <memory>
+#include <random>
 
-#include "client/load/latency_histogram.h"
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/thread_pool.hpp>
+
+#include "client/load/load_report.h"
 #include "client/load/load_script.h"
-#include "common/net/tcp_stream.h"
+#include "client/load/load_stream.h"
+#include "client/session/client_session.h"
 
 namespace selvage {
 
-struct LoadOptions {
-  HostPort server;
-  std::uint32_t clients = 1;
-  std::chrono::milliseconds duration{10'000};  ///< no step begins later
-  std::uint64_t max_requests = 1'000'000;      ///< over all clients; no step begins beyond it
-  unsigned threads = 0;                        ///< that do the network; 0: one
+/// What the live table shows; written by all clients.
+struct LiveCounters {
+  std::atomic<std::uint32_t> connected = 0;
+  std::atomic<std::uint64_t> requests = 0, bytes = 0, errors = 0, latency_us = 0;
 };
 
-struct LoadReport {
-  std::map<std::string, LatencyHistogram> latency;   ///< by kind of step, and "connect"
-  LatencyHistogram first_region;                     ///< from the start of a get to its first whole part
-  std::map<std::string, std::uint64_t> errors;       ///< by error code
-  std::uint64_t requests = 0, parts = 0, bytes = 0;  ///< bytes of parts
-  std::chrono::duration<double> elapsed{};
+/// When a test ends, for all clients.
+class LoadBounds {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  LoadBounds(Clock::time_point end, std::uint64_t max_requests)
+      : end_(end.time_since_epoch().count()), requests_left_(static_cast<std::int64_t>(max_requests)) {}
+
+  Clock::time_point end() const { return Clock::time_point(Clock::duration(end_.load())); }
+  void end_now() { end_ = Clock::now().time_since_epoch().count(); }
+  bool is_over() const { return Clock::now() >= end() || requests_left_ <= 0; }
+  /// Counts a request; false if it may not begin any more.
+  bool allow() { return Clock::now() < end() && requests_left_.fetch_sub(1) > 0; }
+
+ private:
+  std::atomic<Clock::rep> end_;
+  std::atomic<std::int64_t> requests_left_;
 };
 
-/// All clients start at once; each runs the script over its own connection and stops at its first error.
-/// Latency is from sending a request to its answer: a client that waits for a slow server sends less, so this
-/// does not correct for coordinated omission.
-LoadReport run_load(const LoadScript& script, const LoadOptions& options);
+/// What the clients of one network thread share. Used on that thread only, but for what says otherwise.
+struct LoadThread {
+  asio::io_context& io;
+  asio::thread_pool& workers;  ///< decode; thread-safe
+  LoadBounds& bounds;          ///< thread-safe
+  LiveCounters& live;          ///< thread-safe
+  std::map<std::string, KindReport> reports = {};
+  std::map<Hash, std::shared_ptr<const Manifest>> manifests = {};  ///< so that thousands of clients hold one
+};
+
+/// One client that does as its kind's script says, over a connection of its own. An error ends its round and
+/// is counted; the next round comes after a pause that grows while things go wrong.
+class ScriptedClient {
+ public:
+  ScriptedClient(const ClientKind& kind, ClientOptions options, HostPort server, LoadThread& thread,
+                 std::uint32_t seed);
+
+  /// `start`: when its first round is to begin.
+  asio::awaitable<void> run(LoadBounds::Clock::time_point start);
+
+  const StreamMeter& meter() const { return meter_; }
+
+ private:
+  using Clock = LoadBounds::Clock;
+
+  asio::awaitable<bool> run_round(Clock::duration lateness);
+  asio::awaitable<Result<void>> connect();
+  asio::awaitable<Result<void>> perform(const LoadStep& step);
+  asio::awaitable<Result<void>> get(const LoadStep& step);
+  asio::awaitable<Result<void>> get_with_drop(const LoadStep& step, GetRequest request,
+                                              ClientSession::OnPart on_part);
+  asio::awaitable<Result<void>> stall(const LoadStep& step);
+  asio::awaitable<Result<void>> vanish(const LoadStep& step);
+  asio::awaitable<bool> sleep_until(Clock::time_point time);
+  Selection random_share(const LoadStep& step);
+  void disconnect();
+  void note(const std::string& label, const Error& error);
+
+  const ClientKind& kind_;
+  ClientOptions options_;
+  const HostPort server_;
+  LoadThread& thread_;
+  KindReport& report_;
+  std::mt19937 random_;
+  StreamMeter meter_;
+  std::shared_ptr<ClientSession> session_;
+  std::shared_ptr<const Manifest> manifest_;
+};
 
 }  // namespace selvage

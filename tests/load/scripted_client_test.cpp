@@ -1,47 +1,146 @@
 // SPDX-License-Identifier: MIT
-#include "client/load/scripted_client.h"
-
 #include <gtest/gtest.h>
 
+#include "client/load/run_load.h"
 #include "tests/support/fake_pack.h"
+#include "tests/support/labelled_pack.h"
+#include "tests/support/shapes.h"
 #include "tests/support/test_server.h"
 
 namespace selvage {
 namespace {
 
-LoadReport run(const TestServer& server, const char* text, std::uint32_t clients,
-               std::uint64_t max_requests = 1000) {
+using namespace std::chrono_literals;
+
+KindReport run(const TestServer& server, const std::string& text, LoadOptions options = {}) {
   const LoadScript script = parse_load_script(text).value();
-  return run_load(script, {.server = server.address(),
-                           .clients = clients,
-                           .duration = std::chrono::seconds(60),
-                           .max_requests = max_requests});
+  options.server = server.address();
+  options.duration = 60s;
+  return run_load(script, options).total();
 }
 
 TEST(ScriptedClient, CountsWhatTheScriptAsksFor) {
   TestServer server;
   server.folder().put("row.selvage", fake_pack_bytes(10, 1000));
-  const LoadReport report = run(server, "list\nopen row\nget all\nget 2-4\nrepeat 3", 5);
+  const KindReport report =
+      run(server, "client a 5\nlist\nopen row\nget all\nget 2-4\nloop 3", {.threads = 2});
   EXPECT_TRUE(report.errors.empty());
   EXPECT_EQ(report.requests, 5u * 3 * 4);
   EXPECT_EQ(report.parts, 5u * 3 * (10 + 9 + 3 + 2));
-  EXPECT_EQ(report.bytes, 5u * 3 * (10 * 1000 + 9 * 3 + 3 * 1000 + 2 * 3));
-  EXPECT_EQ(report.latency.at("get").count(), 30u);
+  EXPECT_EQ(report.useful_bytes, 5u * 3 * (10 * 1000 + 9 * 3 + 3 * 1000 + 2 * 3));
+  EXPECT_GT(report.received_bytes, report.useful_bytes);
+  EXPECT_EQ(report.latency.at("get all").count(), 15u);
+  EXPECT_EQ(report.latency.at("get 2-4").count(), 15u);
   EXPECT_EQ(report.latency.at("connect").count(), 5u);
   EXPECT_EQ(report.first_region.count(), 30u);
+}
+
+TEST(ScriptedClient, KindsAreApart) {
+  TestServer server;
+  server.folder().put("row.selvage", fake_pack_bytes(3));
+  LoadOptions options;
+  options.server = server.address();
+  const LoadReport report =
+      run_load(parse_load_script("client a 2\nopen row\nget all\nclient b 3\nlist\ndisconnect\nlist").value(),
+               options);
+  EXPECT_EQ(report.kinds.at("a").requests, 4u);
+  EXPECT_EQ(report.kinds.at("b").requests, 6u);
+  EXPECT_EQ(report.kinds.at("b").latency.at("connect").count(), 6u) << "disconnect";
+  EXPECT_FALSE(report.is_corrected);
 }
 
 TEST(ScriptedClient, StopsAtTheBoundOnRequests) {
   TestServer server;
   server.folder().put("row.selvage", fake_pack_bytes(3));
-  EXPECT_EQ(run(server, "open row\nget random 50%\nrepeat forever", 4, 41).requests, 41u);
+  const KindReport report =
+      run(server, "client a 4\nopen row\nget random 50%\nloop forever", {.max_requests = 41});
+  EXPECT_EQ(report.requests, 41u);
 }
 
-TEST(ScriptedClient, CountsErrorsByKind) {
+TEST(ScriptedClient, StopsWhenTold) {
   TestServer server;
-  const LoadReport report = run(server, "open nothing\nget all", 3);
-  EXPECT_EQ(report.errors.at("NotFound"), 3u);
+  LoadOptions options;
+  options.server = server.address();
+  options.sample_every = 1ms;
+  std::stop_source stop;
+  int samples = 0;
+  options.on_sample = [&](const LoadSample&) {
+    if (++samples == 3) stop.request_stop();
+  };
+  const auto report =
+      run_load(parse_load_script("duration 10min\nclient a 3\nlist\nthink 1h\nloop forever").value(), options,
+               stop.get_token());
+  EXPECT_GE(report.samples.size(), 3u);
+}
+
+TEST(ScriptedClient, CountsErrorsByStepAndKind) {
+  TestServer server;
+  const KindReport report = run(server, "client a 3\nopen nothing\nget all");
+  EXPECT_EQ(report.errors.at("open nothing: NotFound"), 3u);
   EXPECT_EQ(report.requests, 0u);
+}
+
+TEST(ScriptedClient, ResumesADroppedGetWithoutFetchingItAgain) {
+  TestServer server;
+  server.folder().put("row.selvage", fake_pack_bytes(5, 500'000));
+  const KindReport report = run(server, "client a 4\nopen row\nget all drop after 1200KB");
+  EXPECT_TRUE(report.errors.empty());
+  EXPECT_EQ(report.dropped, 4u);
+  EXPECT_EQ(report.parts, 4u * 9);
+  EXPECT_EQ(report.useful_bytes, 4u * (5 * 500'000 + 4 * 3));
+  EXPECT_LT(report.received_bytes, report.useful_bytes * 103 / 100);
+}
+
+TEST(ScriptedClient, CancelsAndGoesOn) {
+  TestServer server;
+  server.folder().put("row.selvage", fake_pack_bytes(50, 200'000));
+  const KindReport report = run(server, "client a 2\nlink 8mbit\nopen row\nget all cancel after 20ms\nget 3");
+  EXPECT_TRUE(report.errors.empty()) << report.errors.begin()->first;
+  EXPECT_EQ(report.cancelled, 2u);
+  EXPECT_EQ(report.useful_bytes, 2u * 200'000);
+  EXPECT_LT(report.received_bytes, 2u * 9'000'000);
+}
+
+TEST(ScriptedClient, BehavesBadlyWithoutErrors) {
+  TestServer server;
+  server.folder().put("row.selvage", fake_pack_bytes(50, 100'000));
+  const KindReport report = run(server,
+                                "client a 4\nopen row\nstall 30ms\nlist\nopen row\nvanish 300KB\nlist\n"
+                                "client b 8\ngarbage 2KB\nloop 3");
+  EXPECT_TRUE(report.errors.empty()) << report.errors.begin()->first;
+  EXPECT_EQ(report.cancelled, 8u);
+  EXPECT_EQ(report.requests, 4u * 6 + 24);
+  EXPECT_EQ(report.parts, 0u);
+}
+
+TEST(ScriptedClient, VerifiesWhatItDecodes) {
+  TestServer server;
+  const TriangleSoup torus = shapes::torus(40, 30);
+  server.folder().put("torus.selvage", labelled_pack(torus, cube_labels(torus, 0.7), 14));
+  const KindReport report = run(server, "client a 3\nverify\nopen torus\nget all\nget random 50%\nloop 4");
+  EXPECT_TRUE(report.errors.empty()) << report.errors.begin()->first;
+  EXPECT_EQ(report.verified, 24u);
+}
+
+TEST(ScriptedClient, FindsWhatDoesNotDecode) {
+  TestServer server;
+  server.folder().put("row.selvage", fake_pack_bytes(3));
+  const KindReport report = run(server, "client a 1\ndecode\nopen row\nget all");
+  EXPECT_EQ(report.errors.at("get all: BadStream"), 1u);
+}
+
+/// Rounds every 5 ms of steps that take 20: each is later than the one before, and its latency says so.
+TEST(ScriptedClient, MeasuresFromWhenARoundWasDue) {
+  TestServer server;
+  const char* text = "client a 1\nlink 20ms\n%s\nlist\nloop 6";
+  char paced[100], closed[100];
+  std::snprintf(paced, sizeof paced, text, "every 5ms");
+  std::snprintf(closed, sizeof closed, text, "");
+  const KindReport due = run(server, paced), sent = run(server, closed);
+  EXPECT_GE(due.latency.at("list").max(), 5 * 15ms);
+  EXPECT_GE(due.late_rounds, 5u);
+  EXPECT_EQ(sent.late_rounds, 0u);
+  EXPECT_LT(sent.latency.at("list").percentile(0.2), due.latency.at("list").max());
 }
 
 }  // namespace
