@@ -274,13 +274,38 @@ class ClientSession::PendingEntry {
   std::uint32_t id_ = 0;
 };
 
+/// Passes turns of a dial on to the session, from whatever thread, for as long as it lives.
+class ClientSession::DialListener {
+ public:
+  DialListener(ClientSession& session, std::uint32_t request_id, std::shared_ptr<UrgencyDial> dial)
+      : dial_(std::move(dial)) {
+    if (!dial_) return;
+    dial_->listen(
+        [weak = session.weak_from_this(), executor = session.executor(), request_id](std::uint8_t urgency) {
+          asio::post(executor, [weak, request_id, urgency] {
+            if (const auto alive = weak.lock()) alive->reprioritise(request_id, urgency);
+          });
+        });
+  }
+  ~DialListener() {
+    if (dial_) dial_->listen(nullptr);
+  }
+  DialListener(const DialListener&) = delete;
+  DialListener& operator=(const DialListener&) = delete;
+
+ private:
+  std::shared_ptr<UrgencyDial> dial_;
+};
+
 template <class Message>
 asio::awaitable<Result<void>> ClientSession::exchange(Message message, AnswerReader& reader,
-                                                      std::stop_token stop) {
+                                                      std::stop_token stop,
+                                                      std::shared_ptr<UrgencyDial> dial) {
   if (ended_) co_return tl::unexpected(*ended_);
   if (going_away_) co_return fail(ErrorCode::Unavailable, *going_away_);
   if (stop.stop_requested()) co_return fail(ErrorCode::Cancelled, "cancelled");
   Pending pending{reader, Signal(stream_->executor()), std::nullopt, 0};
+  if constexpr (requires { message.urgency; }) pending.urgency = message.urgency;
   const PendingEntry entry(shared_from_this(), pending);
   const std::vector<std::byte> frame = to_frame(message, entry.id());
   if (frame.size() - kFrameHeaderSize > server_.max_message_bytes) {
@@ -297,6 +322,9 @@ asio::awaitable<Result<void>> ClientSession::exchange(Message message, AnswerRea
     });
   };
   const std::stop_callback cancels(stop, std::move(on_stop));
+  const DialListener listener(*this, entry.id(), dial);
+  // It may have been turned between the message's making and now.
+  if (dial) reprioritise(entry.id(), dial->urgency());
   while (!pending.outcome) co_await pending.answered.wait();
   co_return *pending.outcome;
 }
@@ -311,6 +339,13 @@ void ClientSession::cancel(std::uint32_t request_id) {
   if (found == pending_.end() || found->second->outcome) return;
   settle(*found->second, fail(ErrorCode::Cancelled, "cancelled"));
   abandon(request_id);
+}
+
+void ClientSession::reprioritise(std::uint32_t request_id, std::uint8_t urgency) {
+  const auto found = pending_.find(request_id);
+  if (found == pending_.end() || found->second->outcome || found->second->urgency == urgency) return;
+  found->second->urgency = urgency;
+  send(Reprioritise{urgency}, request_id);
 }
 
 /// The server may have begun to answer: it is told to stop, and what comes until it does is dropped.
@@ -374,7 +409,7 @@ asio::awaitable<Result<GetStats>> ClientSession::get(GetRequest request, OnPart 
   if (!options_.check_hashes) reader->skip_hashes();
   GetParts message{request.manifest->name,  request.manifest->pack_id, std::move(request.selection),
                    std::move(request.have), std::move(partial),        request.urgency};
-  Result<void> answered = co_await exchange(std::move(message), *reader, std::move(stop));
+  Result<void> answered = co_await exchange(std::move(message), *reader, std::move(stop), request.dial);
   if (!answered) {
     reader->leave_unfinished();
     co_return forward_error(answered);

@@ -58,7 +58,7 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
 
   /// Fetches the selected parts. ModelChanged if the server has another pack by now; BadStream if a part is
   /// not what the directory lists; Cancelled soon after `stop` is requested (from any thread), and no part
-  /// after it.
+  /// after it. The request's dial changes its urgency on the server while it runs.
   asio::awaitable<Result<GetStats>> get(GetRequest request, OnPart on_part, std::stop_token stop = {});
 
   /// How long a round trip takes.
@@ -77,8 +77,10 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
     Signal answered;
     std::optional<Result<void>> outcome;
     std::uint32_t next_seq = 0;
+    std::uint8_t urgency = kUsualUrgency;  ///< that the server knows of
   };
   class PendingEntry;
+  class DialListener;
 
   ClientSession(std::unique_ptr<ByteStream> stream, ClientOptions options);
 
@@ -94,10 +96,12 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   void grant();
 
   template <class Message>
-  asio::awaitable<Result<void>> exchange(Message message, AnswerReader& reader, std::stop_token stop);
+  asio::awaitable<Result<void>> exchange(Message message, AnswerReader& reader, std::stop_token stop,
+                                         std::shared_ptr<UrgencyDial> dial = {});
   template <class Message>
   void send(const Message& message, std::uint32_t request_id);
   void cancel(std::uint32_t request_id);
+  void reprioritise(std::uint32_t request_id, std::uint8_t urgency);
   void settle(Pending& pending, Result<void> outcome);
   void abandon(std::uint32_t request_id);
   void end(Error reason);

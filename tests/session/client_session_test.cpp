@@ -359,6 +359,48 @@ TEST(ClientSession, ACancelledGetLeavesRoomForTheNext) {
   harness.run(work(harness.connect()));
 }
 
+TEST(ClientSession, TurningTheDialReachesTheServer) {
+  SessionHarness harness;
+  auto [client_end, server_end] = make_memory_streams(harness.executor());
+  RawPeer server(std::move(server_end));
+  const auto dial = std::make_shared<UrgencyDial>(5);
+  const auto serve = [](RawPeer& peer, std::shared_ptr<UrgencyDial> turned) -> Work {
+    const auto hello = co_await peer.receive();
+    HelloAck ack;
+    ack.max_message_bytes = 100'000;
+    ack.max_ids = 100;
+    ack.idle_timeout_ms = 60'000;
+    co_await peer.send(std::move(ack));
+    const auto get = co_await peer.receive();
+    EXPECT_TRUE(get && get->is(FrameType::GetParts));
+    EXPECT_EQ(get->as<GetParts>().urgency, 5);
+    turned->turn(0);
+    const auto change = co_await peer.receive();
+    EXPECT_TRUE(change && change->is(FrameType::Reprioritise));
+    EXPECT_EQ(change->as<Reprioritise>().urgency, 0);
+    EXPECT_EQ(change->header.request_id, get->header.request_id);
+    peer.close();
+  };
+  const auto fetch = [](std::unique_ptr<ByteStream> stream, std::shared_ptr<UrgencyDial> turned) -> Work {
+    ClientOptions options;
+    const auto session = co_await ClientSession::start(std::move(stream), options);
+    EXPECT_TRUE(session);
+    GetRequest request;
+    const auto pack = Pack::from_bytes(fake_pack_bytes(3)).value();
+    Manifest manifest;
+    manifest.name = "row";
+    manifest.directory = pack->directory();
+    request.manifest = std::make_shared<const Manifest>(std::move(manifest));
+    request.dial = turned;
+    const auto stats = co_await (*session)->get(std::move(request), ignore_part);
+    EXPECT_FALSE(stats);
+    turned->turn(7);  // too late, and nobody's business
+    (*session)->close();
+  };
+  asio::co_spawn(harness.executor(), serve(server, dial), asio::detached);
+  harness.run(fetch(std::move(client_end), dial));
+}
+
 TEST(ClientSession, RequestsOverlap) {
   SessionHarness harness;
   harness.folder().put("row.selvage", fake_pack_bytes(50, 20'000));
