@@ -40,7 +40,8 @@ Result<void> verify_whole(const std::filesystem::path& path) {
     return fail(
         ErrorCode::BadStream,
         fmt::format("{}: stitched to {} vertices and {} triangles, but the directory promises {} and {}",
-                    path.string(), soup.positions.size(), soup.triangles.size(), directory.vertices, directory.triangles));
+                    path.string(), soup.positions.size(), soup.triangles.size(), directory.vertices,
+                    directory.triangles));
   }
   for (const auto& [a, b, c] : soup.triangles) {
     if (a == b || b == c || c == a)

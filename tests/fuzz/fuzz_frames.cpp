@@ -29,6 +29,13 @@ void parse_any(const Frame& frame) {
     case FrameType::Cancel: (void)parse<Cancel>(frame.payload); break;
     case FrameType::Ping: (void)parse<Ping>(frame.payload); break;
     case FrameType::Pong: (void)parse<Pong>(frame.payload); break;
+    case FrameType::Publish: (void)parse<Publish>(frame.payload); break;
+    case FrameType::PublishReady: (void)parse<PublishReady>(frame.payload); break;
+    case FrameType::PublishProgress: (void)parse<PublishProgress>(frame.payload); break;
+    case FrameType::Published: (void)parse<Published>(frame.payload); break;
+    case FrameType::Unpublish: (void)parse<Unpublish>(frame.payload); break;
+    case FrameType::Status: (void)parse<Status>(frame.payload); break;
+    case FrameType::StatusReport: (void)parse<StatusReport>(frame.payload); break;
     case FrameType::Data:
     case FrameType::Reprioritise: break;
   }

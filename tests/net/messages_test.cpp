@@ -26,8 +26,10 @@ Result<Message> round_trip(const Message& message) {
 
 template <class Message>
 class EveryMessage : public ::testing::Test {};
-using AllMessages = ::testing::Types<Hello, HelloAck, ListModels, Models, OpenModel, ManifestBegin, GetParts,
-                                     PartBegin, RequestEnd, Credit, ErrorMessage, GoAway, Cancel, Ping, Pong>;
+using AllMessages =
+    ::testing::Types<Hello, HelloAck, ListModels, Models, OpenModel, ManifestBegin, GetParts, PartBegin,
+                     RequestEnd, Credit, ErrorMessage, GoAway, Cancel, Ping, Pong, Publish, PublishReady,
+                     PublishProgress, Published, Unpublish, Status, StatusReport>;
 TYPED_TEST_SUITE(EveryMessage, AllMessages);
 
 TYPED_TEST(EveryMessage, ComesBackAsItWent) {
