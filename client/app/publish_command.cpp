@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "client/session/blocking_client.h"
-#include "common/base/hash.h"
+#include "common/base/hasher.h"
 #include "common/base/progress_line.h"
 
 namespace selvage {

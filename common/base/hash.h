@@ -8,7 +8,6 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
 
@@ -23,26 +22,5 @@ struct Hash {
 };
 
 Hash hash_of(std::span<const std::byte> data);
-
-/// The same of data that comes in pieces.
-class Hasher {
- public:
-  Hasher();
-  ~Hasher();
-  Hasher(Hasher&&) noexcept;
-  Hasher& operator=(Hasher&&) noexcept;
-
-  void add(std::span<const std::byte> data);
-  Hash finish();  ///< once
-
- private:
-  struct State;
-  std::unique_ptr<State> state_;
-};
-
-/// For secrets: the whole SHA-256, and a comparison that takes as long for all.
-using Sha256 = std::array<std::uint8_t, 32>;
-Sha256 sha256_of(std::span<const std::byte> data);
-bool equal_in_constant_time(const Sha256& a, const Sha256& b);
 
 }  // namespace selvage

@@ -53,7 +53,8 @@ Response answer(const Request& request, const HealthPages& pages) {
   return response;
 }
 
-asio::awaitable<void> serve(tcp::socket socket, const HealthPages& pages, std::shared_ptr<int> counted) {
+asio::awaitable<void> serve(tcp::socket socket, const HealthPages& pages,
+                            [[maybe_unused]] std::shared_ptr<int> counted) {
   beast::tcp_stream stream(std::move(socket));
   beast::flat_buffer buffer(16 << 10);
   for (bool goes_on = true; goes_on;) {

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <new>
 
-#include "common/base/hash.h"
+#include "common/base/hasher.h"
 #include "common/base/replace_file.h"
 #include "common/mesh_io/read_mesh.h"
 #include "server/ingest/repair_notes.h"

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "common/base/hash.h"
 #include "common/base/log.h"
 #include "common/base/replace_file.h"
 #include "common/mesh_io/read_mesh.h"

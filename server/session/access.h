@@ -19,7 +19,7 @@
 #include <string_view>
 #include <vector>
 
-#include "common/base/hash.h"
+#include "common/base/secret.h"
 #include "common/base/result.h"
 
 namespace selvage {

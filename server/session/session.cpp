@@ -234,7 +234,7 @@ bool Session::refuse(std::uint32_t request_id, bool is_allowed, const char* scop
 // ------------------------------------------------------------------------------------------------
 
 asio::awaitable<Result<void>> Session::list(std::uint32_t request_id, ListModels request) {
-  note("list", request_id, {});
+  note("list", request_id, LogFields());
   auto look = [&store = services_.store] { return store.list(); };
   Result<std::vector<PackStore::Model>> models = co_await run_on(services_.workers, std::move(look));
   if (models) {
