@@ -30,7 +30,7 @@ std::vector<CLI::ConfigItem> TomlConfig::from_config(std::istream& input) const 
   } catch (const toml::parse_error& error) {
     fail_at(error.source(), std::string(error.description()));
   }
-  std::vector<CLI::ConfigItem> items;
+  std::vector<CLI::ConfigItem> found;
   for (const auto& [key, value] : table) {
     const std::string name(key.str());
     if (app_.get_option_no_throw("--" + name) == nullptr) {
@@ -39,9 +39,9 @@ std::vector<CLI::ConfigItem> TomlConfig::from_config(std::istream& input) const 
     CLI::ConfigItem item;
     item.name = name;
     item.inputs.push_back(to_argument(name, value));
-    items.push_back(std::move(item));
+    found.push_back(std::move(item));
   }
-  return items;
+  return found;
 }
 
 }  // namespace selvage

@@ -58,7 +58,7 @@ asio::awaitable<Result<void>> Session::publish(std::uint32_t request_id, Publish
 
 /// Data of an upload that has failed may still be on its way: it is dropped.
 asio::awaitable<Result<void>> Session::take_upload(Frame frame) {
-  if (frame.header.request_id != last_upload_) {
+  if (frame.header.request_id == 0 || frame.header.request_id != last_upload_) {
     co_return fail(ErrorCode::Protocol, "Data that belongs to no upload");
   }
   if (!upload_ || upload_->is_submitted) co_return Result<void>();

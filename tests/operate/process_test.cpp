@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fstream>
 #include <set>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -231,7 +232,8 @@ TEST_F(Process, KillDuringPublishLosesNothingThatWasAcknowledged) {
   const auto pack = Pack::open(store() / "ring.selvage");
   ASSERT_TRUE(pack) << pack.error().message;
   EXPECT_EQ((*pack)->id(), published->pack_id);
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(store() / ".uploads"), {}), 0);
+  const std::filesystem::directory_iterator staged(store() / ".uploads"), end;
+  EXPECT_EQ(std::distance(staged, end), 0);
 }
 
 /// What a client got before the server was killed need not be fetched again.

@@ -3,6 +3,8 @@
 // Publishing over real connections.
 #include <gtest/gtest.h>
 
+#include <boost/asio/use_future.hpp>
+
 #include "client/session/blocking_client.h"
 #include "common/base/hash.h"
 #include "common/mesh/same_mesh.h"
