@@ -39,7 +39,9 @@ std::string to_text(const std::vector<RegionRange>& ranges) {
 }  // namespace
 
 Result<void> run(const ListCommand& command) {
-  auto models = list_models(command.server);
+  auto options = command.connection.client_options();
+  if (!options) return forward_error(options);
+  auto models = list_models(command.server, *options);
   if (!models) return forward_error(models);
   if (command.json) {
     auto json = nlohmann::ordered_json::array();
@@ -60,7 +62,7 @@ Result<void> run(const ListCommand& command) {
 }
 
 Result<void> run(const RegionsCommand& command) {
-  auto directory = load_directory(command.source);
+  auto directory = load_directory(command.source, command.connection);
   if (!directory) return forward_error(directory);
   if (command.json) {
     auto json = nlohmann::ordered_json::array();

@@ -28,10 +28,12 @@ Result<LoadedModel> load_model(const std::string& source, const Selection& selec
   return loaded;
 }
 
-Result<Directory> load_directory(const std::string& source, const SourceOptions& options) {
-  auto model_options = options.model_options();
-  if (!model_options) return forward_error(model_options);
-  auto model = Model::open(source, std::move(*model_options));
+Result<Directory> load_directory(const std::string& source, const ServerOptions& options) {
+  auto connection = options.client_options();
+  if (!connection) return forward_error(connection);
+  ModelOptions model_options;
+  model_options.connection = std::move(*connection);
+  auto model = Model::open(source, std::move(model_options));
   if (!model) return forward_error(model);
   return model->directory();
 }

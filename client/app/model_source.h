@@ -25,7 +25,7 @@ Result<LoadedModel> load_model(const std::string& source, const Selection& selec
                                const SourceOptions& options = {});
 
 /// The directory alone.
-Result<Directory> load_directory(const std::string& source, const SourceOptions& options = {});
+Result<Directory> load_directory(const std::string& source, const ServerOptions& options = {});
 
 /// The line that every written mesh carries where its format has comments.
 std::string provenance(const Directory& directory);

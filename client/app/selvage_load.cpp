@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "client/app/load_output.h"
+#include "client/app/server_options.h"
 #include "client/load/run_load.h"
 #include "common/base/replace_file.h"
 
@@ -137,11 +138,19 @@ int main(int argc, char** argv) {
   app.add_flag("--json", outputs.json, "print as JSON");
   app.add_option("--csv", outputs.csv, "write samples, one a second, to a file")->type_name("FILE");
   app.add_option("--chart", outputs.chart, "write a page with charts")->type_name("FILE.html");
+  ServerOptions connection;
+  connection.add_to(app);
   CLI11_PARSE(app, argc, argv);
 
   allow_many_files();
   std::signal(SIGINT, [](int) { g_interrupted = true; });
   options.duration = std::chrono::milliseconds(static_cast<std::int64_t>(seconds * 1000));
+  auto client_options = connection.client_options();
+  if (!client_options) {
+    std::fprintf(stderr, "selvage-load: %s\n", client_options.error().to_string().c_str());
+    return 2;
+  }
+  options.connection = std::move(*client_options);
   auto as_expected = run(server, script_path, options, clients, expected, outputs);
   if (!as_expected) {
     std::fprintf(stderr, "selvage-load: %s\n", as_expected.error().to_string().c_str());

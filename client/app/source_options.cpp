@@ -6,6 +6,7 @@
 namespace selvage {
 
 void SourceOptions::add_to(CLI::App& command) {
+  server.add_to(command);
   command
       .add_option("--cache", cache,
                   "where fetched parts are kept for the next time: a folder, or off "
@@ -24,6 +25,9 @@ void SourceOptions::add_to(CLI::App& command) {
 
 Result<ModelOptions> SourceOptions::model_options() const {
   ModelOptions options;
+  auto connection = server.client_options();
+  if (!connection) return forward_error(connection);
+  options.connection = std::move(*connection);
   options.cache_bytes = cache_mib << 20;
   options.decode_threads = threads;
   options.retry.give_up_after = std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * retry_seconds));

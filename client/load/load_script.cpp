@@ -14,7 +14,8 @@ namespace {
 constexpr std::uint32_t kMaxRounds = 1'000'000'000;
 constexpr std::uint32_t kMaxClients = 50'000;
 constexpr std::string_view kSteps =
-    "list, open NAME, get WHAT, think TIME, disconnect, stall TIME, vanish SIZE, garbage SIZE";
+    "list, open NAME, get WHAT, think TIME, disconnect, stall TIME, vanish SIZE, garbage SIZE, publish FILE "
+    "NAME";
 
 using Words = std::vector<std::string>;
 
@@ -120,6 +121,11 @@ Result<LoadStep> parse_step(const Words& words) {
   if (verb == "disconnect" && words.size() == 1) return LoadStep{.kind = LoadStep::Kind::Disconnect};
   if (verb == "stall" && words.size() == 2 && parse_time(words[1]))
     return LoadStep{.kind = LoadStep::Kind::Stall, .stall = *parse_time(words[1])};
+  if (verb == "publish" && words.size() == 3) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(words[1], ignored)) return wrong("no such file: " + words[1]);
+    return LoadStep{.kind = LoadStep::Kind::Publish, .model = words[2], .file = words[1]};
+  }
   if ((verb == "vanish" || verb == "garbage") && words.size() == 2 && parse_size(words[1])) {
     const auto kind = verb == "vanish" ? LoadStep::Kind::Vanish : LoadStep::Kind::Garbage;
     return LoadStep{.kind = kind, .bytes = *parse_size(words[1])};

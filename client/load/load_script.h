@@ -19,10 +19,10 @@
 namespace selvage {
 
 struct LoadStep {
-  enum class Kind : std::uint8_t { List, Open, Get, Think, Disconnect, Stall, Vanish, Garbage };
+  enum class Kind : std::uint8_t { List, Open, Get, Think, Disconnect, Stall, Vanish, Garbage, Publish };
   Kind kind = Kind::List;
   std::string label;  ///< what it is called in reports: its words
-  std::string model;  ///< Open
+  std::string model;  ///< Open; Publish, where the number of the client is appended
 
   Selection selection;                ///< Get, unless random_percent is set
   std::optional<int> random_percent;  ///< Get: 1..100, of the regions, others each time
@@ -33,6 +33,8 @@ struct LoadStep {
   std::optional<std::uint64_t> drop_after_bytes;
 
   std::chrono::milliseconds think_least{}, think_most{};  ///< Think: a time in between, another each time
+
+  std::filesystem::path file;  ///< Publish: the mesh
 
   std::chrono::milliseconds stall{};  ///< Stall: how long a client that asks for everything reads nothing
   std::uint64_t bytes = 0;            ///< Vanish: after how many it goes; Garbage: how many it sends

@@ -69,6 +69,11 @@ class LoadStream final : public ByteStream {
   }
   ~LoadStream() override { close(); }
 
+  asio::awaitable<Result<void>> handshake() override {
+    Result<void> ready = co_await uplink_->stream->handshake();
+    co_return ready;
+  }
+
   asio::awaitable<Result<std::size_t>> read_some(std::span<std::byte> into) override {
     if (rate_ > 0) {
       into = into.first(std::min(into.size(), quantum(rate_)));

@@ -2,6 +2,7 @@
 #include "client/load/scripted_client.h"
 
 #include <algorithm>
+#include <fstream>
 
 #include <boost/asio/steady_timer.hpp>
 
@@ -15,16 +16,26 @@ namespace {
 
 constexpr std::chrono::milliseconds kFirstPause{200}, kLongestPause{5000};
 
+Result<std::vector<std::byte>> read_file(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  std::vector<std::byte> bytes(file ? static_cast<std::size_t>(file.tellg()) : 0);
+  file.seekg(0);
+  file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  if (!file || bytes.empty()) return fail(ErrorCode::Io, path.string() + ": cannot be read");
+  return bytes;
+}
+
 }  // namespace
 
 ScriptedClient::ScriptedClient(const ClientKind& kind, ClientOptions options, HostPort server,
-                               LoadThread& thread, std::uint32_t seed)
+                               LoadThread& thread, std::uint32_t number)
     : kind_(kind),
       options_(std::move(options)),
       server_(std::move(server)),
       thread_(thread),
       report_(thread.reports[kind.name]),
-      random_(seed) {
+      number_(number),
+      random_(number) {
   options_.check_hashes = kind.verifies;
   options_.wrap_stream = [this](std::unique_ptr<ByteStream> stream) {
     return make_load_stream(std::move(stream), kind_.link, meter_);
@@ -140,9 +151,37 @@ asio::awaitable<Result<void>> ScriptedClient::perform(const LoadStep& step) {
     co_return co_await stall(step);
   } else if (step.kind == LoadStep::Kind::Vanish) {
     co_return co_await vanish(step);
+  } else if (step.kind == LoadStep::Kind::Publish) {
+    co_return co_await publish(step);
   } else {
     co_return co_await send_garbage(server_, step.bytes, random_());
   }
+  co_return Result<void>();
+}
+
+/// Under a name of its own, so that clients do not replace each other's.
+asio::awaitable<Result<void>> ScriptedClient::publish(const LoadStep& step) {
+  std::shared_ptr<const std::vector<std::byte>>& file = thread_.files[step.file];
+  if (!file) {
+    auto read = read_file(step.file);
+    if (!read) co_return forward_error(read);
+    file = std::make_shared<const std::vector<std::byte>>(std::move(*read));
+  }
+  PublishRequest request;
+  request.what.name = step.model + "-" + std::to_string(number_);
+  request.what.file = step.file.filename().string();
+  request.what.size_bytes = file->size();
+  request.what.hash = hash_of(*file);
+  request.what.replace = true;
+  request.read = [bytes = file](std::uint64_t offset, std::span<std::byte> into) -> Result<std::size_t> {
+    const auto rest = std::span(*bytes).subspan(std::min<std::size_t>(offset, bytes->size()));
+    const auto count = std::min(rest.size(), into.size());
+    std::ranges::copy(rest.first(count), into.begin());
+    return count;
+  };
+  OnPublishState ignore = [](const PublishState&) {};
+  auto published = co_await session_->publish(std::move(request), std::move(ignore));
+  if (!published) co_return forward_error(published);
   co_return Result<void>();
 }
 

@@ -50,7 +50,9 @@ struct LoadThread {
   LoadBounds& bounds;          ///< thread-safe
   LiveCounters& live;          ///< thread-safe
   std::map<std::string, KindReport> reports = {};
-  std::map<Hash, std::shared_ptr<const Manifest>> manifests = {};  ///< so that thousands of clients hold one
+  // So that thousands of clients hold one of each:
+  std::map<Hash, std::shared_ptr<const Manifest>> manifests = {};
+  std::map<std::filesystem::path, std::shared_ptr<const std::vector<std::byte>>> files = {};
 };
 
 /// One client that does as its kind's script says, over a connection of its own. An error ends its round and
@@ -58,7 +60,7 @@ struct LoadThread {
 class ScriptedClient {
  public:
   ScriptedClient(const ClientKind& kind, ClientOptions options, HostPort server, LoadThread& thread,
-                 std::uint32_t seed);
+                 std::uint32_t number);
 
   /// `start`: when its first round is to begin.
   asio::awaitable<void> run(LoadBounds::Clock::time_point start);
@@ -75,6 +77,7 @@ class ScriptedClient {
   asio::awaitable<Result<void>> get_with_drop(const LoadStep& step, GetRequest request,
                                               ClientSession::OnPart on_part);
   asio::awaitable<Result<void>> stall(const LoadStep& step);
+  asio::awaitable<Result<void>> publish(const LoadStep& step);
   asio::awaitable<Result<void>> vanish(const LoadStep& step);
   asio::awaitable<bool> sleep_until(Clock::time_point time);
   Selection random_share(const LoadStep& step);
@@ -86,6 +89,7 @@ class ScriptedClient {
   const HostPort server_;
   LoadThread& thread_;
   KindReport& report_;
+  const std::uint32_t number_;  ///< of all clients, each has another
   std::mt19937 random_;
   StreamMeter meter_;
   std::shared_ptr<ClientSession> session_;

@@ -4,17 +4,28 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace selvage {
 
 class ByteStream;
 
+/// Whom to believe about who a server is.
+struct TlsTrust {
+  std::filesystem::path ca;  ///< PEM file of authorities; empty: the system's
+};
+
 /// How a client speaks to a server.
 struct ClientOptions {
   std::string software = "selvage";
+  std::string token;                           ///< sent in the Hello; empty: none
+  std::optional<TlsTrust> tls = std::nullopt;  ///< absent: plain TCP
+  bool allow_plain =
+      false;  ///< send a token over plain TCP even to other machines, where it can be overheard
   std::chrono::milliseconds connect_timeout{10'000};  ///< for the connection, and again for the greeting
   std::chrono::milliseconds silence_timeout{30'000};  ///< a server that says nothing for so long is gone
   std::uint64_t window_bytes = 8u << 20;              ///< see credit_window.h; at least kMinInitialCredit

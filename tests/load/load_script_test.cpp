@@ -104,6 +104,9 @@ TEST(LoadScript, NamesTheLineThatIsWrong) {
       {"verify all", "line 1: write verify alone"},
       {"duration forever", "line 1: write for instance: duration"},
       {"list\nexpect get", "line 2: 'get' is no expectation"},
+      {"publish /nowhere.ply a", "line 1: no such file: /nowhere.ply"},
+      {"vanish 3KB", "line 1: open a model before vanish"},
+      {"garbage", "line 1: unknown step"},
       {"# nothing\n", "no step"},
       {"open", "line 1: unknown step"}};
   for (const auto& [text, message] : cases) {

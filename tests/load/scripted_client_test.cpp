@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "client/load/run_load.h"
+#include "server/publish/publisher.h"
 #include "tests/support/fake_pack.h"
 #include "tests/support/labelled_pack.h"
+#include "tests/support/mesh_text.h"
 #include "tests/support/shapes.h"
 #include "tests/support/test_server.h"
 
@@ -111,6 +113,25 @@ TEST(ScriptedClient, BehavesBadlyWithoutErrors) {
   EXPECT_EQ(report.cancelled, 8u);
   EXPECT_EQ(report.requests, 4u * 6 + 24);
   EXPECT_EQ(report.parts, 0u);
+}
+
+TEST(ScriptedClient, PublishesAModelEach) {
+  // printf %s hunter2 | sha256sum
+  const auto access = AccessTable::parse(
+      "modeller read,publish sha256:f52fbd32b2b3b86ff88ef6c490628285f482af15ddcb29541f94bcf526a3f6c7\n");
+  TestServer server({}, access.value(), nullptr, [](PackStore& store, ServerCounters& counters) {
+    return std::make_unique<Publisher>(store, counters, PublishLimits());
+  });
+  const TempFolder files;
+  const std::string text = obj_text(shapes::torus(10, 8));
+  files.put("ring.obj", std::as_bytes(std::span(text)));
+  LoadOptions options;
+  options.connection.token = "hunter2";
+  const KindReport report =
+      run(server, "client a 3\npublish " + (files.path() / "ring.obj").string() + " ring\nlist", options);
+  EXPECT_TRUE(report.errors.empty()) << report.errors.begin()->first;
+  for (const char* name : {"ring-0.selvage", "ring-1.selvage", "ring-2.selvage"})
+    EXPECT_TRUE(std::filesystem::exists(server.folder().path() / name)) << name;
 }
 
 TEST(ScriptedClient, VerifiesWhatItDecodes) {

@@ -28,7 +28,8 @@ template <class Message>
 class EveryMessage : public ::testing::Test {};
 using AllMessages =
     ::testing::Types<Hello, HelloAck, ListModels, Models, OpenModel, ManifestBegin, GetParts, Reprioritise,
-                     PartBegin, RequestEnd, Credit, ErrorMessage, GoAway, Cancel, Ping, Pong>;
+                     PartBegin, RequestEnd, Credit, ErrorMessage, GoAway, Cancel, Ping, Pong, Publish,
+                     PublishReady, PublishProgress, Published, Unpublish, Status, StatusReport>;
 TYPED_TEST_SUITE(EveryMessage, AllMessages);
 
 TYPED_TEST(EveryMessage, ComesBackAsItWent) {
@@ -75,6 +76,7 @@ TEST(Messages, GetPartsKeepsEverySelection) {
   EXPECT_EQ(back->pack_id, get.pack_id);
   EXPECT_EQ(back->selection.ids, get.selection.ids);
   EXPECT_EQ(back->selection.level, get.selection.level);
+  EXPECT_EQ(back->selection.levels, get.selection.levels);
   EXPECT_EQ(back->selection.joins, get.selection.joins);
   EXPECT_EQ(back->have, get.have);
   ASSERT_EQ(back->partial.size(), 1u);
