@@ -53,6 +53,7 @@ Result<RegionMesh> decode_region(std::span<const std::byte> bytes, const DecodeL
     if (!decode_loose_vertices(in, expected.vertices, mesh)) return mismatch();
     if (auto ok = decode_loose_positions(in, expected.vertices, box, mesh); !ok) return forward_error(ok);
   }
+  mesh.vertex_of_boundary = mesh.loops.vertices;
   if (header->has_exact != expected.exact.has_value()) return mismatch();
   if (expected.exact) {
     auto exact = decode_exact(mesh.positions, *expected.exact, in);
