@@ -3,7 +3,6 @@
 // Any mix of levels, in any order of coming and going, against the definition of the mix (levels.h) and
 // against the topology of the model.
 #include <algorithm>
-#include <map>
 #include <random>
 #include <set>
 
@@ -14,6 +13,7 @@
 #include "tests/simplify/simplify_support.h"
 #include "tests/support/labelled_pack.h"
 #include "tests/support/levelled_model.h"
+#include "tests/support/mesh_mirror.h"
 #include "tests/support/random_meshes.h"
 #include "tests/support/shapes.h"
 
@@ -96,55 +96,16 @@ Stitcher stitched(const LevelledModel& model, const std::vector<std::uint32_t>& 
 VertexId source_at(const Vec3& position) { return static_cast<VertexId>(position.x); }
 
 /// In the file's vertices; fails if two vertices are one of the file's.
-std::vector<Triangle> in_file_vertices(const StitchedMesh& mesh) {
+std::vector<Triangle> in_file_vertices(const TriangleSoup& soup) {
   std::set<VertexId> seen;
-  for (const Vec3& p : mesh.soup.positions)
+  for (const Vec3& p : soup.positions)
     EXPECT_TRUE(seen.insert(source_at(p)).second) << "vertex " << source_at(p) << " twice";
-  std::vector<Triangle> triangles = mesh.soup.triangles;
+  std::vector<Triangle> triangles = soup.triangles;
   for (Triangle& triangle : triangles) {
-    for (VertexId& v : triangle) v = source_at(mesh.soup.positions[v]);
+    for (VertexId& v : triangle) v = source_at(soup.positions[v]);
   }
   return in_canonical_order(std::move(triangles));
 }
-
-/// What somebody holds who knows nothing but the updates.
-class Mirror {
- public:
-  void apply(const StitchUpdate& update) {
-    for (const auto& vertex : update.vertices) vertices_[vertex.id] = vertex.position;
-    for (const auto& patch : update.patches) {
-      if (patch.triangles.empty()) {
-        EXPECT_EQ(patches_.erase(patch.id), 1u) << "a patch went that was not there";
-      } else {
-        patches_[patch.id] = patch.triangles;
-      }
-    }
-    for (const VertexId id : update.removed_vertices)
-      EXPECT_EQ(vertices_.erase(id), 1u) << "a vertex went that was not there";
-  }
-
-  std::vector<Triangle> triangles() const {
-    std::vector<Triangle> all;
-    for (const auto& [id, triangles] : patches_) {
-      for (Triangle triangle : triangles) {
-        for (VertexId& v : triangle) v = source_at(vertices_.at(v));
-        all.push_back(triangle);
-      }
-    }
-    return in_canonical_order(std::move(all));
-  }
-
-  std::vector<VertexId> vertices() const {
-    std::vector<VertexId> all;
-    for (const auto& [id, position] : vertices_) all.push_back(source_at(position));
-    std::sort(all.begin(), all.end());
-    return all;
-  }
-
- private:
-  std::map<VertexId, Vec3> vertices_;
-  std::map<PatchId, std::vector<Triangle>> patches_;
-};
 
 TEST(MixedLevels, AreTheFinestMeshInItsRepresentativesAndKeepItsTopology) {
   std::mt19937 random(1);
@@ -157,7 +118,7 @@ TEST(MixedLevels, AreTheFinestMeshInItsRepresentativesAndKeepItsTopology) {
     for (const auto& [a, b] : border_edges(input)) on_border.insert({a, b});
     for (int round = 0; round < 24; ++round) {
       const auto levels = random_levels(model, round, random);
-      const auto triangles = in_file_vertices(stitched(model, levels).mesh());
+      const auto triangles = in_file_vertices(stitched(model, levels).mesh().soup);
       ASSERT_EQ(triangles, model.mix(levels)) << model.name << ", round " << round;
       ASSERT_EQ(manifold_violation(triangles, vertices), "") << model.name << ", round " << round;
       ASSERT_EQ(topology_of(triangles, vertices), expected) << model.name << ", round " << round;
@@ -191,7 +152,7 @@ TEST(MixedLevels, OfRaggedMeshesAreWeldedAndOpenOnlyAtTheBordersOfTheInput) {
     }
     for (int round = 0; round < 12; ++round) {
       const auto levels = random_levels(model, round, random);
-      const auto triangles = in_file_vertices(stitched(model, levels).mesh());
+      const auto triangles = in_file_vertices(stitched(model, levels).mesh().soup);
       ASSERT_EQ(triangles, model.mix(levels)) << model.name << ", round " << round;
       for (const auto& [a, b] : odd_edges(triangles)) {
         ASSERT_TRUE(may_be_open.contains(a) && may_be_open.contains(b)) << model.name << ": a crack";
@@ -211,7 +172,7 @@ TEST(MixedLevels, TheFinestIsTheFile) {
         file.push_back(triangle);
       }
       const std::vector<std::uint32_t> finest(model.region_count() + 1, 0);
-      EXPECT_EQ(in_file_vertices(stitched(model, finest).mesh()), in_canonical_order(std::move(file)))
+      EXPECT_EQ(in_file_vertices(stitched(model, finest).mesh().soup), in_canonical_order(std::move(file)))
           << model.name;
     }
   }
@@ -221,7 +182,7 @@ TEST(MixedLevels, TheFinestIsTheFile) {
 /// mirror, the stitcher and one that was built afresh hold the same mesh, which is the mix.
 void change_at_random(const LevelledModel& model, int steps, std::mt19937& random) {
   Stitcher stitcher(model.directory);
-  Mirror mirror;
+  MeshMirror mirror;
   std::vector<std::uint32_t> levels(model.region_count() + 1, kAbsent);
   for (RegionId id = 0; id < levels.size(); ++id) ASSERT_TRUE(stitcher.add_bundle(id, model.bundles[id]));
   for (int step = 0; step < steps; ++step) {
@@ -242,13 +203,10 @@ void change_at_random(const LevelledModel& model, int steps, std::mt19937& rando
     const StitchedMesh fresh = stitched(model, levels).mesh();
     ASSERT_EQ(mesh.soup.triangles, fresh.soup.triangles) << model.name << ", step " << step;
     ASSERT_EQ(mesh.region_of_vertex, fresh.region_of_vertex) << model.name << ", step " << step;
-    const auto triangles = in_file_vertices(mesh);
+    const auto triangles = in_file_vertices(mesh.soup);
     ASSERT_EQ(triangles, model.mix(levels)) << model.name << ", step " << step;
-    ASSERT_EQ(mirror.triangles(), triangles) << model.name << ", step " << step;
-    std::vector<VertexId> vertices;
-    for (const Vec3& p : mesh.soup.positions) vertices.push_back(source_at(p));
-    std::sort(vertices.begin(), vertices.end());
-    ASSERT_EQ(mirror.vertices(), vertices) << model.name << ", step " << step;
+    ASSERT_EQ(in_file_vertices(mirror.soup()), triangles) << model.name << ", step " << step;
+    ASSERT_EQ(mirror.soup().positions.size(), mesh.soup.positions.size()) << model.name << ", step " << step;
   }
 }
 
@@ -267,7 +225,7 @@ TEST(MixedLevels, StayClosedWhileEveryRegionIsRefinedInTurn) {
   for (RegionId id = 1; id <= model.region_count(); ++id) {
     for (std::uint32_t level = model.level_count(); level-- > 0;) {
       ASSERT_TRUE(stitcher.add_region(id, model.region(id, level), static_cast<std::uint8_t>(level)));
-      const auto triangles = in_file_vertices(stitcher.mesh());
+      const auto triangles = in_file_vertices(stitcher.mesh().soup);
       ASSERT_EQ(manifold_violation(triangles, vertices), "");
       ASSERT_TRUE(border_edges(triangles).empty());
     }
@@ -283,7 +241,7 @@ TEST(MixedLevels, OfTheDissertationsSpecialCasesKeepTheirFeatures) {
     const std::vector<Triangle> finest = model.mix(levels);
     std::fill(levels.begin() + 1, levels.end(), 3);  // an eighth
     const auto vertices = static_cast<std::uint32_t>(model.mesh.positions.size());
-    const auto coarse = in_file_vertices(stitched(model, levels).mesh());
+    const auto coarse = in_file_vertices(stitched(model, levels).mesh().soup);
     EXPECT_LT(coarse.size() * 6, finest.size()) << model.name;
     EXPECT_EQ(topology_of(coarse, vertices), topology_of(finest, vertices)) << model.name;
     std::vector<Vec3> position_in_file(vertices);
