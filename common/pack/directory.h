@@ -19,13 +19,14 @@
 
 namespace selvage {
 
-/// A part is the unit of addressing, hashing, caching and sending: one level of one region, or one bundle.
-enum class PartKind : std::uint8_t { Region = 0, Bundle = 1 };
+/// A part is the unit of addressing, hashing, caching and sending: one level of one region, one bundle, or
+/// one page of the directory itself.
+enum class PartKind : std::uint8_t { Region = 0, Bundle = 1, Page = 2 };
 
 struct PartId {
   PartKind kind = PartKind::Region;
-  RegionId region = 0;
-  std::uint8_t level = 0;  ///< 0 is the full resolution; always 0 for bundles
+  RegionId region = 0;     ///< of a page: its number
+  std::uint8_t level = 0;  ///< 0 is the full resolution; always 0 for bundles and pages
   friend auto operator<=>(const PartId&, const PartId&) = default;
 };
 
@@ -79,6 +80,18 @@ struct NamedRegions {
   friend bool operator==(const NamedRegions&, const NamedRegions&) = default;
 };
 
+/// One page of the directory, as the summary describes it. It lists the regions [n * kRegionsPerPage,
+/// (n + 1) * kRegionsPerPage).
+struct PageEntry {
+  PartRef part;                  ///< of the page's own bytes
+  std::uint64_t first_part = 0;  ///< where the parts that it lists begin, one after the other
+  std::uint64_t parts_size = 0;
+  GridPoint box_min, box_max;  ///< of its regions
+  bool is_read = false;        ///< its regions are in `regions`
+};
+inline constexpr std::uint32_t kRegionsPerPage = 256;
+inline constexpr std::uint32_t page_of(RegionId region) { return region / kRegionsPerPage; }
+
 struct Directory {
   std::string name;
   std::string units;  ///< as the user named them; empty if unknown
@@ -92,7 +105,10 @@ struct Directory {
   std::uint64_t connectivity_bytes = 0;  ///< of all region parts, the share that is connectivity: for people
   std::vector<NamedRegions> names;       ///< by name, each once; a region may have several names or none
   std::vector<RegionEntry> regions;      ///< by RegionId; [kLooseRegion] always exists
+  std::vector<PageEntry> pages;          ///< filled in by writing and parsing
 
+  /// The region's page has been read. Always so, but for a directory that parse_summary began.
+  bool has(RegionId region) const { return pages.empty() || pages[page_of(region)].is_read; }
   const PartRef* find(const PartId& id) const;                 ///< null if there is no such part
   const NamedRegions* find_name(std::string_view name) const;  ///< null if no part is called so
   std::uint32_t real_region_count() const { return static_cast<std::uint32_t>(regions.size()) - 1; }
@@ -111,6 +127,14 @@ DirectoryBytes write_directory(Directory& directory);
 /// Parses and checks hostile bytes: page hashes, counts, order, and that parts tile [end of directory, end of
 /// file).
 Result<Directory> parse_directory(std::span<const std::byte> bytes, std::uint32_t summary_size);
+
+/// The same page by page, for clients that need some regions of very many: first the summary, which gives
+/// everything but the regions (they are there, and empty), then any pages in any order. LimitExceeded beyond
+/// `max_regions`, for which the summary alone makes room.
+Result<Directory> parse_summary(std::span<const std::byte> summary, std::uint64_t directory_size,
+                                std::uint32_t max_regions = 1u << 20);
+/// BadStream, with nothing read, if the bytes are not that page. Reading one again changes nothing.
+Result<void> read_page(Directory& directory, std::uint32_t page, std::span<const std::byte> bytes);
 
 /// The identity of the pack with this directory.
 Hash pack_id(std::span<const std::byte> directory_bytes, std::uint32_t summary_size);

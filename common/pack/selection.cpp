@@ -11,12 +11,20 @@ namespace {
 
 constexpr std::size_t kMaxListedRegions = 1'000'000;
 
-bool meets(const Grid& grid, const RegionEntry& entry, const Box& box) {
-  const Vec3 low = grid.position(entry.box_min), high = grid.position(entry.box_max);
+bool meets(const Grid& grid, const GridPoint& box_min, const GridPoint& box_max, const Box& box) {
+  const Vec3 low = grid.position(box_min), high = grid.position(box_max);
   for (int axis = 0; axis < 3; ++axis) {
     if (high[axis] < box.min[axis] || low[axis] > box.max[axis]) return false;
   }
   return true;
+}
+
+/// For a region whose page has not been read, its page's box stands in.
+bool meets(const Directory& directory, RegionId id, const Box& box) {
+  const RegionEntry& entry = directory.regions[id];
+  if (directory.has(id)) return meets(directory.grid, entry.box_min, entry.box_max, box);
+  const PageEntry& page = directory.pages[page_of(id)];
+  return meets(directory.grid, page.box_min, page.box_max, box);
 }
 
 std::vector<RegionId> all_regions(const Directory& directory) {
@@ -96,13 +104,14 @@ Result<std::vector<RegionId>> select_regions(const Directory& directory, const S
   std::vector<RegionId> regions;
   switch (selection.kind) {
     case Selection::Kind::All:
-      return all_regions(directory);
+      regions = all_regions(directory);
+      break;
     case Selection::Kind::Ids:
       regions = selection.ids;
       break;
     case Selection::Kind::Box:
       for (RegionId id : all_regions(directory)) {
-        if (meets(directory.grid, directory.regions[id], selection.box)) regions.push_back(id);
+        if (meets(directory, id, selection.box)) regions.push_back(id);
       }
       break;
   }
@@ -113,6 +122,11 @@ Result<std::vector<RegionId>> select_regions(const Directory& directory, const S
       return fail(ErrorCode::NotFound, "no region " + std::to_string(id) +
                                            " in this model; it has regions 1 to " +
                                            std::to_string(directory.real_region_count()));
+    }
+    if (!directory.has(id)) {
+      return fail(ErrorCode::InvalidArgument, "page " + std::to_string(page_of(id)) +
+                                                  " of the directory, which lists region " +
+                                                  std::to_string(id) + ", has not been read");
     }
   }
   return regions;
@@ -143,6 +157,29 @@ Result<std::vector<PartId>> select_parts(const Directory& directory, const Selec
     if (is_bundle_sent[id]) parts.push_back({PartKind::Bundle, id, 0});
   }
   return parts;
+}
+
+std::vector<PartId> with_pages(const Directory& directory, std::vector<PartId> parts, Pages pages) {
+  if (pages == Pages::None) return parts;
+  std::vector<PartId> all;
+  all.reserve(parts.size() + directory.pages.size());
+  std::vector<bool> is_listed(directory.pages.size(), false);
+  const auto list = [&](std::uint32_t page) {
+    if (!is_listed[page]) all.push_back({PartKind::Page, page, 0});
+    is_listed[page] = true;
+  };
+  for (const PartId& part : parts) {
+    list(page_of(part.region));
+    // A bundle decodes from the loop lengths of all regions that it touches.
+    if (part.kind == PartKind::Bundle) {
+      for (RegionId below : directory.regions[part.region].lower_neighbours) list(page_of(below));
+    }
+    all.push_back(part);
+  }
+  if (pages == Pages::All) {
+    for (std::uint32_t page = 0; page < directory.pages.size(); ++page) list(page);
+  }
+  return all;
 }
 
 Result<Selection> parse_region_list(std::string_view text) {

@@ -37,11 +37,11 @@ inline Models sample() {
 }
 template <>
 inline OpenModel sample() {
-  return {"bunny"};
+  return {"bunny", true, sample_hash(8)};
 }
 template <>
 inline ManifestBegin sample() {
-  return {sample_hash(2), 400, 12'345};
+  return {sample_hash(2), 400, 12'345, 400};
 }
 template <>
 inline GetParts sample() {
@@ -52,7 +52,12 @@ inline GetParts sample() {
   get.have = {sample_hash(4), sample_hash(5)};
   get.partial = {{sample_hash(6), 4096}};
   get.urgency = 1;
+  get.pages = Pages::All;
   return get;
+}
+template <>
+inline Reprioritise sample() {
+  return {6};
 }
 template <>
 inline PartBegin sample() {
