@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// A model while it is looked at: regions come, are refined, coarsened or dropped in place, and every step is a
-// watertight mesh that reaches a renderer as an update.
+// A model while it is looked at: regions come, are refined, coarsened or dropped in place, and every step is
+// a watertight mesh that reaches a renderer as an update.
 //
-//     LiveModel live(manifest, [&](auto request, const auto& on_part) { return client.get(request, on_part); });
-//     live.show({.level = 1}, draw);                                              // all of it, coarse
-//     live.show({.kind = Selection::Kind::Ids, .ids = {3}}, draw);                // region 3 fine, in its place
+//     LiveModel live(manifest, [&](auto request, const auto& on_part) { return client.get(request, on_part);
+//     }); live.show({.level = 1}, draw);                                              // all of it, coarse
+//     live.show({.kind = Selection::Kind::Ids, .ids = {3}}, draw);                // region 3 fine, in its
+//     place
 //
 // A second show() fetches only what the first did not: parts at other levels, never a join again.
 #pragma once

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // What a stitched mesh looks like from one moment to the next, for whoever keeps a copy: a renderer's
-// buffers, another thread's mesh. Set the vertices, replace the patches, forget the removed vertices; the copy
-// is then the mesh, whatever happened in between.
+// buffers, another thread's mesh. Set the vertices, replace the patches, forget the removed vertices; the
+// copy is then the mesh, whatever happened in between.
 #pragma once
 
 #include <array>

@@ -64,7 +64,8 @@ class Stitcher {
   std::uint64_t elements_visited() const { return elements_visited_; }
 
   /// The mesh so far, built anew: linear in what was added. Depends only on the regions, their levels and the
-  /// bundles that are there, not on the way they came. Vertices are numbered through, unlike those of updates.
+  /// bundles that are there, not on the way they came. Vertices are numbered through, unlike those of
+  /// updates.
   StitchedMesh mesh() const;
 
  private:

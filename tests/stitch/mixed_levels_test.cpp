@@ -196,7 +196,9 @@ void change_at_random(const LevelledModel& model, int steps, std::mt19937& rando
       levels[id] = id == kLooseRegion ? 0 : random() % model.level_count();
       ASSERT_TRUE(
           stitcher.add_region(id, model.region(id, levels[id]), static_cast<std::uint8_t>(levels[id])));
-      if (random() % 8 == 0) { ASSERT_TRUE(stitcher.add_bundle(id, model.bundles[id])); }
+      if (random() % 8 == 0) {
+        ASSERT_TRUE(stitcher.add_bundle(id, model.bundles[id]));
+      }
     }
     mirror.apply(stitcher.take_update());
     const StitchedMesh mesh = stitcher.mesh();

@@ -102,9 +102,8 @@ LevelledModel levelled_model(std::string name, RepairedMesh mesh,
   model.group_of_vertex_ = weld_groups(model.mesh.source_of_vertex);
   const auto pinned = members_of(model.group_of_vertex_);
   const auto& labels = model.partition.region_of_vertex;
-  model.levels =
-      split_by_region(table, labels, model.partition.region_count,
-                      simplify({table, model.mesh.positions, labels, pinned}, targets));
+  model.levels = split_by_region(table, labels, model.partition.region_count,
+                                 simplify({table, model.mesh.positions, labels, pinned}, targets));
 
   const std::uint32_t regions = model.partition.region_count + 1;
   model.directory.regions.resize(regions);
