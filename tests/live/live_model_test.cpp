@@ -2,6 +2,8 @@
 #include "client/live/live_model.h"
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <random>
 #include <set>
 
@@ -10,17 +12,26 @@
 #include "common/mesh/same_mesh.h"
 #include "common/pack/pack.h"
 #include "tests/support/labelled_pack.h"
+#include "tests/support/levelled_model.h"
 #include "tests/support/mesh_mirror.h"
 #include "tests/support/shapes.h"
 
 namespace selvage {
 namespace {
 
+constexpr double kRatios[] = {0.5, 0.2, 0.05};
+
+LevelledModel model_of(const TriangleSoup& soup) {
+  RepairedMesh mesh = repair(soup).value();
+  const auto labels = cube_labels({mesh.positions, {}}, 1.5);
+  return levelled_model("model", std::move(mesh), labels, kRatios);
+}
+
 /// Answers like a server, from memory; can break off.
 struct FakeServer {
   TriangleSoup soup = shapes::torus(24, 60);
-  std::shared_ptr<const Pack> pack =
-      Pack::from_bytes(labelled_pack(soup, cube_labels(soup, 1.5), 14)).value();
+  LevelledModel model = model_of(soup);
+  std::shared_ptr<const Pack> pack = Pack::from_bytes(levelled_pack(model, 14)).value();
   std::uint32_t fails_after = 0xFFFFFFFFu;  // parts
   std::vector<PartId> sent;
 
@@ -144,6 +155,50 @@ TEST(LiveModel, AsksNobodyForWhatIsThere) {
   ASSERT_TRUE(stats);
   EXPECT_EQ(stats->parts, 0u);
   EXPECT_EQ(viewer.updates, 0);
+}
+
+/// The mesh in the numbers of the file's vertices, by their places on the grid, which are all different.
+std::vector<Triangle> in_file_vertices(const FakeServer& server, const TriangleSoup& soup) {
+  const Grid& grid = server.pack->directory().grid;
+  const auto place = [&](const Vec3& p) {
+    const GridPoint g = grid.quantise(p);
+    return std::array{g.x, g.y, g.z};
+  };
+  std::map<std::array<std::int32_t, 3>, VertexId> vertex_at;
+  for (VertexId v = 0; v < server.soup.positions.size(); ++v)
+    EXPECT_TRUE(vertex_at.emplace(place(server.soup.positions[v]), v).second);
+  std::vector<Triangle> triangles = soup.triangles;
+  for (Triangle& triangle : triangles) {
+    for (VertexId& v : triangle) v = vertex_at.at(place(soup.positions[v]));
+  }
+  return in_canonical_order(std::move(triangles));
+}
+
+TEST(LiveModel, RefinesAndCoarsensInPlaceAndIsTheMixAtEveryStep) {
+  Viewer viewer;
+  std::mt19937 random(5);
+  const Directory& directory = viewer.live.directory();
+  ASSERT_EQ(directory.level_count(), 4u);
+  ASSERT_TRUE(viewer.live.show({.level = 3}, viewer.draw));
+  std::vector<std::uint32_t> levels(directory.regions.size(), 3);
+  levels[kLooseRegion] = 0;
+  for (int step = 0; step < 100; ++step) {
+    Selection selection{.kind = Selection::Kind::Ids};
+    for (int i = 0; i < 3; ++i) {
+      const auto id = static_cast<RegionId>(1 + random() % directory.real_region_count());
+      if (std::count(selection.ids.begin(), selection.ids.end(), id) > 0) continue;
+      levels[id] = random() % 4;
+      selection.ids.push_back(id);
+      selection.levels.push_back({id, static_cast<std::uint8_t>(levels[id])});
+    }
+    viewer.server.sent.clear();
+    ASSERT_TRUE(viewer.live.show(selection, viewer.draw));
+    for (const PartId& id : viewer.server.sent) EXPECT_EQ(id.kind, PartKind::Region) << "a join came again";
+    ASSERT_LE(viewer.server.sent.size(), selection.ids.size());
+    const auto mix = viewer.server.model.mix(levels);
+    ASSERT_EQ(in_file_vertices(viewer.server, viewer.mirror.soup()), mix) << "step " << step;
+    ASSERT_EQ(in_file_vertices(viewer.server, viewer.live.mesh().soup), mix) << "step " << step;
+  }
 }
 
 TEST(LiveModel, PassesOnWhyASelectionIsWrong) {

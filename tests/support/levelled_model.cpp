@@ -3,9 +3,13 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
+#include <set>
 
+#include "common/base/parallel.h"
 #include "common/mesh/boundary_loops.h"
+#include "common/mesh/grid.h"
+#include "common/pack/pack.h"
+#include "server/encode/model_encoder.h"
 #include "server/segment/regularise.h"
 
 namespace selvage {
@@ -136,6 +140,18 @@ LevelledModel levelled_model(std::string name, RepairedMesh mesh,
     model.bundles[highest].push_back(triangle);
   }
   return model;
+}
+
+Bytes levelled_pack(const LevelledModel& model, int bits) {
+  const RepairedMesh& mesh = model.mesh;
+  ModelSource source{mesh.table, mesh.positions, mesh.source_of_vertex, mesh.is_turned, model.partition};
+  source.levels = &model.levels;
+  EncodedModel encoded = encode_model(source, make_grid(mesh.positions, bits), serial_for(), [] {});
+  encoded.directory.name = "levelled";
+  encoded.directory.vertices =
+      static_cast<std::uint32_t>(std::set(mesh.source_of_vertex.begin(), mesh.source_of_vertex.end()).size());
+  encoded.directory.triangles = mesh.table.triangle_count();
+  return assemble_pack(std::move(encoded.directory), encoded.parts);
 }
 
 }  // namespace selvage

@@ -11,6 +11,7 @@
 
 #include "common/codec/bundle.h"
 #include "common/codec/region_mesh.h"
+#include "common/coding/byte_io.h"
 #include "common/pack/directory.h"
 #include "server/ingest/repair.h"
 #include "server/segment/partition.h"
@@ -50,6 +51,9 @@ struct LevelledModel {
 /// Any label a vertex of `mesh`, made codable. Level 0 is the finest, then one a ratio of triangles.
 LevelledModel levelled_model(std::string name, RepairedMesh mesh,
                              std::span<const std::uint32_t> label_of_vertex, std::span<const double> ratios);
+
+/// The model as a pack, on a grid of its own positions; its levels keep all bits.
+Bytes levelled_pack(const LevelledModel& model, int bits);
 
 /// Each triangle from its lowest vertex, all sorted: equal for meshes that differ in order only.
 std::vector<Triangle> in_canonical_order(std::vector<Triangle> triangles);
