@@ -143,8 +143,9 @@ Result<void> run(const PublishCommand& command) {
         {"notes", published->notes}};
     fmt::print("{}\n", json.dump(2));
   } else {
-    fmt::print("{}/{}: {} vertices, {} triangles in {} regions, {} bytes\n", command.server, published->name,
-               published->vertices, published->triangles, published->regions, published->size_bytes);
+    fmt::print("{}/{}: {} vertices, {} triangles in {} region{}, {} bytes\n", command.server, published->name,
+               published->vertices, published->triangles, published->regions,
+               published->regions == 1 ? "" : "s", published->size_bytes);
   }
   return {};
 }

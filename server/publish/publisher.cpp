@@ -140,6 +140,12 @@ Result<std::shared_ptr<Upload>> Publisher::begin(const Publish& request, const s
   if (auto ok = check(request); !ok) return forward_error(ok);
   const auto existing = store_.open(request.name);
   if (existing && is_result_of((*existing)->directory(), request)) {
+    // A server that was killed between its last two steps has left the upload.
+    const std::string key = key_of(request, who);
+    const std::lock_guard lock(mutex_);
+    if (std::ranges::find(jobs_, key, [](const auto& job) { return job->key; }) == jobs_.end()) {
+      staging_.remove(key);
+    }
     return std::make_shared<DoneUpload>(request.size_bytes, describe(request, **existing));
   }
   // A damaged pack has the name, too.
@@ -239,7 +245,9 @@ Result<Published> Publisher::do_job(Job& job, std::stop_token stop) {
     return note_progress(job, stage, done) && !stop.stop_requested();
   };
   try {
-    return publish_mesh(job.request, paths, threaded_for(limits_.threads), progress);
+    auto published = publish_mesh(job.request, paths, threaded_for(limits_.threads), progress);
+    if (published) (void)store_.open(job.request.name);  // so that status and log know of it at once
+    return published;
   } catch (const std::exception& exception) {  // ours: a mesh must not bring the server down
     return fail(ErrorCode::Unsupported, job.request.file + ": " + exception.what());
   }
