@@ -113,7 +113,8 @@ Result<void> draw(const SegmentCommand& command, const SegmentedFile& model) {
 RegionHierarchy hierarchy_of(const SegmentCommand& command, const RepairedMesh& mesh) {
   const SegmentOptions sized =
       with_streaming_sizes(command.segmentation.segment, mesh.table.triangle_count());
-  return grow_xmrg_hierarchy(mesh.table, mesh.positions, xmrg_options(sized), threaded_for(command.threads))
+  return grow_xmrg_hierarchy(mesh.table, Neighbours(mesh.table), mesh.positions, xmrg_options(sized),
+                             threaded_for(command.threads))
       .regions;
 }
 

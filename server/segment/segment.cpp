@@ -44,7 +44,8 @@ std::vector<std::uint32_t> label_vertices(const CornerTable& mesh, std::span<con
       break;
   }
   const XmrgOptions xmrg = xmrg_options(options);
-  return xmrg_labels(mesh, grow_xmrg_hierarchy(mesh, positions, xmrg, parallel), xmrg);
+  const Neighbours neighbours(mesh);
+  return xmrg_labels(neighbours, grow_xmrg_hierarchy(mesh, neighbours, positions, xmrg, parallel), xmrg);
 }
 
 }  // namespace
