@@ -90,7 +90,7 @@ void cut_large_regions(const Neighbours& neighbours, Minima& labels, std::uint32
   for (VertexId v = 0; v < vertices.size(); ++v) vertices[fill[labels.label_of_vertex[v]]++] = v;
 
   Cutter cutter(neighbours, labels);
-  const double piece_size = std::max(1.0, 0.75 * max_vertices);
+  const double piece_size = std::max(1.0, 0.9 * max_vertices);
   for (std::size_t label = 0; label + 1 < begin.size(); ++label) {
     const std::uint32_t size = begin[label + 1] - begin[label];
     if (size <= max_vertices) continue;

@@ -78,7 +78,7 @@ TEST(CutLarge, MakesCompactPiecesNearTheWantedSize) {
   const TestMesh mesh = mesh_of(shapes::torus(60, 120));
   Minima labels{std::vector<std::uint32_t>(mesh.table.vertex_count(), 0), 1};
   cut_large_regions(Neighbours(mesh.table), labels, 1000);
-  EXPECT_EQ(labels.count, 10u);  // 7200 / 750, rounded up
+  EXPECT_EQ(labels.count, 8u);  // 7200 / 900
   std::vector<int> size(labels.count, 0);
   for (std::uint32_t label : labels.label_of_vertex) ++size[label];
   for (int s : size) {
