@@ -17,6 +17,10 @@ struct Share {
 /// Greatest first, unused ones last with label kNone.
 using Shares = std::array<Share, kMaxShares>;
 
+bool is_only(const Shares& shares, std::uint32_t label) {
+  return shares[0].label == label && shares[1].label == kNone;
+}
+
 /// Vertices within kBandEdges edges of a border, breadth first from it.
 std::vector<VertexId> find_band(const Neighbours& neighbours,
                                 const std::vector<std::uint32_t>& label_of_vertex,
@@ -91,9 +95,19 @@ void smooth_once(const Neighbours& neighbours, std::span<const float> kappa,
   const auto weight = [&](VertexId v, VertexId w) {
     return 1 / (1 + std::max(0.0f, -5 * (kappa[v] + kappa[w])));
   };
+  const auto is_settled = [&](std::span<const VertexId> around, std::uint32_t label) {
+    return std::all_of(around.begin(), around.end(), [&](VertexId w) {
+      return place_in_band[w] == kNone ? label_of_vertex[w] == label
+                                       : is_only(shares[place_in_band[w]], label);
+    });
+  };
   for (int step = 0; step < kSteps; ++step) {
     for (std::size_t i = 0; i < band.size(); ++i) {
       const VertexId v = band[i];
+      if (is_settled(neighbours[v], shares[i][0].label) && is_only(shares[i], shares[i][0].label)) {
+        smoothed[i] = shares[i];  // as the mean would be, which is most of the time
+        continue;
+      }
       float weight_sum = 0;
       for (VertexId w : neighbours[v]) weight_sum += weight(v, w);
       sum.clear();
