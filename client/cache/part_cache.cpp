@@ -168,7 +168,7 @@ void PartCache::evict() {
     ::unlink(file.path.c_str());
     used -= file.bytes;
   }
-  free_bytes_ = used < max_bytes_ ? max_bytes_ - used : 0;
+  free_bytes_ = used < max_bytes_ ? std::min(max_bytes_ - used, max_bytes_ / 16) : 0;
 }
 
 std::optional<fs::path> default_cache_folder() {

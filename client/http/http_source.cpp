@@ -186,6 +186,7 @@ Result<GetStats> HttpSource::get(GetRequest request, const OnPart& on_part, std:
 
   Window window(options_.window_bytes);
   const auto on_whole = [&](const PartId& id, std::vector<std::byte> bytes) -> Result<void> {
+    if (stop.stop_requested()) return fail(ErrorCode::Cancelled, "cancelled");
     ++stats.parts;
     stats.bytes += bytes.size();
     Receipt receipt = window.hold(bytes.size());
