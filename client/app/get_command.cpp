@@ -50,7 +50,9 @@ void print_text(const GetCommand& command, const FetchedModel& model) {
 Result<void> run(const GetCommand& command) {
   auto selection = command.selection.selection();
   if (!selection) return forward_error(selection);
-  const FetchOptions options{*selection, command.threads, command.selection.max_error,
+  auto connection = command.connection.client_options();
+  if (!connection) return forward_error(connection);
+  const FetchOptions options{*selection, command.threads, *connection, command.selection.max_error,
                              command.selection.budget};
   ProgressLine line;
   auto model =

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "client/session/client_session.h"
 #include "client/stitch/stitcher.h"
 #include "common/pack/pack.h"
 #include "common/pack/selection.h"
@@ -33,7 +34,8 @@ struct FetchedModel {
 
 struct FetchOptions {
   Selection selection;
-  unsigned threads = 0;  ///< that decode; 0: all cores
+  unsigned threads = 0;      ///< that decode; 0: all cores
+  ClientOptions connection;  ///< to a server
   // Of these at most one: levels for the regions that `selection` gives none (common/pack/level_choice.h).
   std::optional<double> max_error = std::nullopt;
   std::optional<std::uint64_t> budget = std::nullopt;
@@ -54,7 +56,7 @@ Result<FetchedModel> fetch(const std::string& source, const FetchOptions& option
                            const FetchProgress& progress);
 
 /// The directory alone, of either.
-Result<Directory> fetch_directory(const std::string& source);
+Result<Directory> fetch_directory(const std::string& source, const ClientOptions& connection);
 
 /// The line that every written mesh carries where its format has comments.
 std::string provenance(const Directory& directory);
