@@ -15,6 +15,8 @@ void print_json(const GetCommand& command, const FetchedModel& model) {
   const nlohmann::ordered_json json = {{"output", command.output.string()},
                                        {"model", model.directory.name},
                                        {"regions", model.regions},
+                                       {"regions_at_level", model.regions_at_level},
+                                       {"max_error", model.largest_error},
                                        {"of_regions", model.directory.real_region_count()},
                                        {"vertices", model.mesh.soup.positions.size()},
                                        {"triangles", model.mesh.soup.triangles.size()},
@@ -31,6 +33,12 @@ void print_text(const GetCommand& command, const FetchedModel& model) {
   fmt::print("{}: {} vertices, {} of {} triangles, {} of {} regions\n", command.output.string(),
              model.mesh.soup.positions.size(), model.mesh.soup.triangles.size(), model.directory.triangles,
              model.regions, model.directory.real_region_count());
+  if (model.regions_at_level.size() > 1) {
+    std::string levels;
+    for (std::size_t level = 0; level < model.regions_at_level.size(); ++level)
+      levels += fmt::format("{}{} at level {}", level > 0 ? ", " : "", model.regions_at_level[level], level);
+    fmt::print("  regions: {}; at most {:.3g} model units off\n", levels, model.largest_error);
+  }
   fmt::print(
       "  {} bytes in {} parts, and {} of directory; first region after {:.1f} ms, stitched after {:.1f} ms\n",
       model.part_bytes, model.parts, model.directory_bytes, 1e3 * model.time_to_first_region.count(),
@@ -44,7 +52,8 @@ Result<void> run(const GetCommand& command) {
   if (!selection) return forward_error(selection);
   auto connection = command.connection.client_options();
   if (!connection) return forward_error(connection);
-  const FetchOptions options{*selection, command.threads, *connection};
+  const FetchOptions options{*selection, command.threads, *connection, command.selection.max_error,
+                             command.selection.budget};
   ProgressLine line;
   auto model =
       command.from_pack

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "client/app/model_source.h"
 
+#include <algorithm>
 #include <mutex>
 #include <optional>
 
@@ -9,6 +10,7 @@
 #include "client/session/blocking_client.h"
 #include "client/stitch/part_collector.h"
 #include "common/base/task_group.h"
+#include "common/pack/level_choice.h"
 
 namespace selvage {
 namespace {
@@ -76,6 +78,24 @@ class Decoding {
   TaskGroup tasks_;  // last: its tasks use the rest
 };
 
+/// Names resolved, levels chosen.
+Result<Selection> settle(const Directory& directory, const FetchOptions& options) {
+  auto selection = resolve_names(directory, options.selection);
+  if (!selection) return selection;
+  if (options.max_error) return choose_by_error(directory, std::move(*selection), *options.max_error);
+  if (options.budget) return choose_by_budget(directory, std::move(*selection), *options.budget);
+  return selection;
+}
+
+void count_levels(const std::vector<PartId>& parts, FetchedModel& model) {
+  model.regions_at_level.assign(model.directory.level_count(), 0);
+  for (const PartId& id : parts) {
+    if (id.kind != PartKind::Region || id.region == kLooseRegion) continue;
+    ++model.regions_at_level[id.level];
+    model.largest_error = std::max(model.largest_error, level_error(model.directory, id.region, id.level));
+  }
+}
+
 }  // namespace
 
 std::string provenance(const Directory& directory) {
@@ -88,7 +108,7 @@ Result<FetchedModel> fetch_from_pack(const std::filesystem::path& path, const Fe
   const auto begin = Clock::now();
   auto pack = Pack::open(path);
   if (!pack) return forward_error(pack);
-  auto selection = resolve_names((*pack)->directory(), options.selection);
+  auto selection = settle((*pack)->directory(), options);
   if (!selection) return forward_error(selection, path.string());
   auto parts = select_parts((*pack)->directory(), *selection);
   if (!parts) return forward_error(parts, path.string());
@@ -96,6 +116,7 @@ Result<FetchedModel> fetch_from_pack(const std::filesystem::path& path, const Fe
   FetchedModel model;
   model.directory = (*pack)->directory();
   model.directory_bytes = (*pack)->directory_bytes().size();
+  count_levels(*parts, model);
   Decoding decoding(model.directory, options.threads, begin);
   for (const PartId& id : *parts) {
     const PartRef& ref = *model.directory.find(id);
@@ -117,7 +138,7 @@ Result<FetchedModel> fetch_from_server(const std::string& address, const FetchOp
   if (!client) return forward_error(client, address);
   auto manifest = client->open(where->model);
   if (!manifest) return forward_error(manifest, address);
-  auto selection = resolve_names((*manifest)->directory, options.selection);
+  auto selection = settle((*manifest)->directory, options);
   if (!selection) return forward_error(selection, address);
   auto expected = select_parts((*manifest)->directory, *selection);
   if (!expected) return forward_error(expected, address);
@@ -125,6 +146,7 @@ Result<FetchedModel> fetch_from_server(const std::string& address, const FetchOp
   FetchedModel model;
   model.directory = (*manifest)->directory;
   model.directory_bytes = (*manifest)->directory_bytes;
+  count_levels(*expected, model);
   Decoding decoding(model.directory, options.threads, begin);
   auto stats = client->get({*manifest, *selection, {}}, [&](ReceivedPart part) -> Result<void> {
     model.part_bytes += part.bytes.size();

@@ -7,7 +7,9 @@
 #include <chrono>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "client/session/client_session.h"
 #include "client/stitch/stitcher.h"
@@ -19,7 +21,9 @@ namespace selvage {
 struct FetchedModel {
   Directory directory;
   StitchedMesh mesh;
-  std::size_t regions = 0;  ///< that were selected and are in `mesh`
+  std::size_t regions = 0;                      ///< that were selected and are in `mesh`
+  std::vector<std::uint32_t> regions_at_level;  ///< of them, up to the coarsest level there is
+  double largest_error = 0;                     ///< of them, in model units, see level_error
   std::uint64_t directory_bytes = 0;
   std::uint64_t part_bytes = 0;
   std::uint32_t parts = 0;
@@ -32,6 +36,9 @@ struct FetchOptions {
   Selection selection;
   unsigned threads = 0;      ///< that decode; 0: all cores
   ClientOptions connection;  ///< to a server
+  // Of these at most one: levels for the regions that `selection` gives none (common/pack/level_choice.h).
+  std::optional<double> max_error = std::nullopt;
+  std::optional<std::uint64_t> budget = std::nullopt;
 };
 
 /// Called on the calling thread with what has arrived so far.
