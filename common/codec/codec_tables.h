@@ -71,8 +71,8 @@ inline constexpr unsigned kShapeClasses = 64;
 
 /// The logarithm of a residual's size as a linear function of other logarithms, in 256ths: tangential and
 /// normal residuals nearby, spread, reach, recent tangential and normal residuals, a constant, and the
-/// residuals of the same vertex that are known already: first axis, second axis, tangent plane.
-inline constexpr unsigned kSizeFeatures = 10;
+/// residuals of the same vertex that are known already: first axis, second axis.
+inline constexpr unsigned kSizeFeatures = 9;
 inline constexpr unsigned kCommonSizeFeatures = 7;
 using SizeWeights = std::array<std::int16_t, kSizeFeatures>;
 inline constexpr unsigned kSizeClasses = 4;  ///< parallelograms: 0, 1, 2, 3 and more

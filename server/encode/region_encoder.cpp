@@ -112,7 +112,7 @@ EncodedRegion encode_region(const RegionSource& source, const CodecTables& table
   write_region_header(part, {.has_turned = !mesh.is_turned.empty(),
                              .has_anchors = !mesh.anchors.empty(),
                              .has_exact = !mesh.exact.empty()});
-  const EntropyEncoder::Coded coded = out.finish<2>(tables.region);
+  const EntropyEncoder::Coded coded = out.finish(tables.region);
   part.append(coded.bytes);
   encoded.connectivity_size = coded.bytes_to_mark;
   encoded.bytes = std::move(part).take();
