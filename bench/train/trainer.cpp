@@ -136,24 +136,23 @@ std::array<ShapeWeights, kShapeClasses> fit_shape(const TrainingSet& set) {
   std::array<LeastSquares<3>, kShapeClasses> fits;
   {
     for (const TrainingRegion& region : set.regions) {
-      for_each_vertex(
-          region, [&](GeometryWalk& walk, const Surroundings& around, IntLanes position) {
-            double error = 0;
-            if (around.parallelograms > 0) {
-              // At least a 32nd of the reach: where all is flat and regular, one outlier would decide
-              // everything.
-              const double expected =
-                  std::exp2(std::max({around.logs[0], around.logs[2], around.logs[3] - 40}) / 8.0) / 4;
-              for (int axis = 0; axis < 3; ++axis) {
-                const double y = position[axis] - around.base[axis] - double{around.mean[axis]};
-                error += std::abs(y);
-                fits[around.shape_class].add({around.beyond[axis], around.ring[axis], around.trend[axis]}, y,
-                                             1 / ((expected + 1) * (expected + std::abs(y) + 1)));
-              }
-            }
-            walk.place(around, position, static_cast<std::uint32_t>(error),
-                       static_cast<std::uint32_t>(error / 2));
-          });
+      for_each_vertex(region, [&](GeometryWalk& walk, const Surroundings& around, IntLanes position) {
+        double error = 0;
+        if (around.parallelograms > 0) {
+          // At least a 32nd of the reach: where all is flat and regular, one outlier would decide
+          // everything.
+          const double expected =
+              std::exp2(std::max({around.logs[0], around.logs[2], around.logs[3] - 40}) / 8.0) / 4;
+          for (int axis = 0; axis < 3; ++axis) {
+            const double y = position[axis] - around.base[axis] - double{around.mean[axis]};
+            error += std::abs(y);
+            fits[around.shape_class].add({around.beyond[axis], around.ring[axis], around.trend[axis]}, y,
+                                         1 / ((expected + 1) * (expected + std::abs(y) + 1)));
+          }
+        }
+        walk.place(around, position, static_cast<std::uint32_t>(error),
+                   static_cast<std::uint32_t>(error / 2));
+      });
     }
   }
   std::array<ShapeWeights, kShapeClasses> weights;
@@ -168,8 +167,8 @@ std::array<std::array<SizeWeights, 3>, kSizeClasses> fit_size(const TrainingSet&
                                                               const CodecTables& start) {
   const Predictor predictor(start, {});
   std::array<std::array<LeastSquares<kSizeFeatures>, 3>, kSizeClasses> fits;
-  const auto learn = [&](unsigned size_class, unsigned axis,
-                         const std::array<double, kSizeFeatures>& x, std::uint32_t magnitude) {
+  const auto learn = [&](unsigned size_class, unsigned axis, const std::array<double, kSizeFeatures>& x,
+                         std::uint32_t magnitude) {
     fits[size_class][axis].add(x, 8 * std::log2(4.0 * magnitude + 2), 1);
   };
   for (const TrainingRegion& region : set.regions) {
@@ -320,6 +319,9 @@ TrainedTables train(const std::vector<const Model*>& models) {
   FittedBank bundle = fit_bank(set.bundles, bundle_model::kCount, bundle_symbols);
   tables.packed_region = std::move(region.packed), tables.region_is_seen = std::move(region.is_seen);
   tables.region = std::move(region.start);
+  for (unsigned m = 0; m < region_model::kCount; ++m) {
+    if (!tables.region_is_seen[m]) tables.region[m] = shipped_tables().region[m];
+  }
   tables.packed_bundle = std::move(bundle.packed), tables.bundle_is_seen = std::move(bundle.is_seen);
   tables.bundle = std::move(bundle.start);
   return tables;
@@ -328,7 +330,8 @@ TrainedTables train(const std::vector<const Model*>& models) {
 namespace {
 
 void append_models(std::string& out, const char* name, const char* count,
-                   const std::vector<PackedModel>& models, const std::vector<bool>& is_seen) {
+                   const std::vector<PackedModel>& models, const std::vector<bool>& is_seen,
+                   const std::function<std::string_view(unsigned)>& unseen) {
   char text[64];
   out += std::string("constexpr std::array<std::string_view, ") + count + "> " + name + "{\n";
   for (std::size_t m = 0; m < models.size(); ++m) {
@@ -337,6 +340,8 @@ void append_models(std::string& out, const char* name, const char* count,
       for (std::uint8_t level : models[m].levels)
         std::snprintf(text, sizeof text, "%02x", level), out += text;
       std::snprintf(text, sizeof text, "%02x%02x", models[m].uses, models[m].uses_limit), out += text;
+    } else {
+      out += unseen(static_cast<unsigned>(m));
     }
     out += m % 3 == 2 ? "\",\n" : "\",";
   }
@@ -349,8 +354,10 @@ std::string to_source(const TrainedTables& tables) {
   std::string out =
       "// Made by bench/train; see docs/FORMAT.md, \"Tables\". Do not edit: a change of any number is a "
       "change of format.\n";
-  append_models(out, "kRegionModels", "region_model::kCount", tables.packed_region, tables.region_is_seen);
-  append_models(out, "kBundleModels", "bundle_model::kCount", tables.packed_bundle, tables.bundle_is_seen);
+  append_models(out, "kRegionModels", "region_model::kCount", tables.packed_region, tables.region_is_seen,
+                shipped_region_text);
+  append_models(out, "kBundleModels", "bundle_model::kCount", tables.packed_bundle, tables.bundle_is_seen,
+                [](unsigned) { return std::string_view(); });
   char text[64];
   out += "constexpr std::array<ShapeWeights, kShapeClasses> kShapeWeights{{\n";
   for (const ShapeWeights& w : tables.shape)

@@ -28,7 +28,9 @@ struct Coarse {
   int low_bits;
   int bits;  ///< raw ones: a sign unless the residual must be 0, and the low bits above it
   Coarse(std::uint32_t magnitude, const SizeClass& size)
-      : coarse(magnitude), low_bits(size.raw_low_bits), bits(low_bits + ((magnitude | static_cast<unsigned>(low_bits)) != 0)) {}
+      : coarse(magnitude),
+        low_bits(size.raw_low_bits),
+        bits(low_bits + ((magnitude | static_cast<unsigned>(low_bits)) != 0)) {}
   std::int32_t with(std::uint32_t raw) const {
     const auto magnitude = static_cast<std::int32_t>(coarse << low_bits | raw >> 1);
     const auto sign = static_cast<std::int32_t>(raw & 1);
@@ -40,7 +42,8 @@ struct Coarse {
 struct LaneBox {
   IntLanes low, high;
   explicit LaneBox(const GridBox& box)
-      : low{box.low.x, box.low.y, box.low.z, INT32_MIN}, high{box.high.x, box.high.y, box.high.z, INT32_MAX} {}
+      : low{box.low.x, box.low.y, box.low.z, INT32_MIN},
+        high{box.high.x, box.high.y, box.high.z, INT32_MAX} {}
 };
 
 bool decode_blends(Decoder& in, Blends& blends) {
@@ -81,8 +84,9 @@ void decode_position(Decoder& in, const Predictor& predictor, const Surroundings
   const unsigned symbol_last = in.symbol(magnitude_model(2, around, third));
   const std::uint32_t coarse_last = decode_coarse(in, symbol_last, third);
   const Coarse coarse[] = {{coarse_u, first}, {coarse_w, second}, {coarse_last, third}};
-  in.expect_bits(coarse[0].bits + coarse[1].bits + coarse[2].bits);
-  const bool is_long = coarse[0].bits + coarse[1].bits + coarse[2].bits > 32;
+  const int all_bits = coarse[0].bits + coarse[1].bits + coarse[2].bits;
+  const bool is_long = all_bits > 32;
+  in.expect_bits(is_long ? coarse[0].bits : all_bits);
   const std::int32_t u = coarse[0].with(in.bits_at_hand(coarse[0].bits));
   if (is_long) [[unlikely]]
     in.expect_bits(coarse[1].bits);
@@ -91,8 +95,7 @@ void decode_position(Decoder& in, const Predictor& predictor, const Surroundings
     in.expect_bits(coarse[2].bits);
   const std::int32_t last = coarse[2].with(in.bits_at_hand(coarse[2].bits));
   const std::int32_t tangent = predictor.tangent_residual(around, u, w);
-  const IntLanes position =
-      predictor.predict(around) + along_axes(around.normal_axis, last + tangent, u, w);
+  const IntLanes position = predictor.predict(around) + along_axes(around.normal_axis, last + tangent, u, w);
   const IntLanes within = clamped(position, box.low, box.high);
   outside |= within ^ position;
   walk.place(around, within, magnitude_of(u) + magnitude_of(w), magnitude_of(last));

@@ -18,7 +18,6 @@ Result<void> decode_positions(EntropyDecoder& in, const GridBox& box, std::uint3
 Result<void> decode_loose_positions(EntropyDecoder& in, std::uint32_t count, const GridBox& box,
                                     RegionMesh& mesh);
 /// Fills turned bits and anchors. Needs the boundary loops; checks that the stream ends here.
-Result<void> decode_turned_and_anchors(EntropyDecoder& in, const RegionPartHeader& header,
-                                       RegionMesh& mesh);
+Result<void> decode_turned_and_anchors(EntropyDecoder& in, const RegionPartHeader& header, RegionMesh& mesh);
 
 }  // namespace selvage

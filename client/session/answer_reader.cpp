@@ -22,7 +22,9 @@ Result<void> check_data(const Frame& frame, std::uint64_t left) {
 }
 
 std::string name_of(const PartId& id) {
-  const std::string what = id.kind == PartKind::Region ? "region " : "bundle ";
+  const std::string what = id.kind == PartKind::Page     ? "directory page "
+                           : id.kind == PartKind::Region ? "region "
+                                                         : "bundle ";
   return what + std::to_string(id.region) + (id.level > 0 ? " at level " + std::to_string(id.level) : "");
 }
 
@@ -65,6 +67,9 @@ Result<bool> ManifestReader::on_begin(const Frame& frame) {
   if (begin->directory_size > max_bytes_) {
     return fail(ErrorCode::LimitExceeded,
                 "the directory of '" + name_ + "' has " + std::to_string(begin->directory_size) + " bytes");
+  }
+  if (begin->data_size != begin->directory_size) {
+    return fail(ErrorCode::BadStream, "the server sends a part of the directory of '" + name_ + "'");
   }
   begin_ = *begin;
   return false;

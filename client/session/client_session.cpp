@@ -340,7 +340,8 @@ asio::awaitable<Result<std::vector<ModelInfo>>> ClientSession::list() {
 
 asio::awaitable<Result<std::shared_ptr<const Manifest>>> ClientSession::open(std::string name) {
   ManifestReader reader(name, options_.max_directory_bytes);
-  OpenModel request{std::move(name)};
+  OpenModel request;
+  request.name = std::move(name);
   Result<void> answered = co_await exchange(std::move(request), reader, std::stop_token());
   if (!answered) co_return forward_error(answered);
   Result<Manifest> manifest = reader.manifest();

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "client/decode/bundle_decoder.h"
-#include "client/decode/region_decoder.h"
+#include "client/stitch/decode_limits.h"
 
 namespace selvage {
 
@@ -20,14 +20,7 @@ Result<void> PartCollector::add(const PartId& id, std::span<const std::byte> byt
 
 Result<void> PartCollector::add_region(RegionId region, std::uint8_t level,
                                        std::span<const std::byte> bytes) {
-  const RegionEntry& owner = directory_.regions[region];
-  const LevelEntry& entry = owner.levels[level];
-  auto mesh =
-      decode_region(bytes, {.vertices = entry.vertices,
-                            .triangles = entry.triangles,
-                            .box_min = owner.box_min,
-                            .box_max = owner.box_max,
-                            .exact = directory_.is_exact ? std::optional(directory_.grid) : std::nullopt});
+  auto mesh = decode_region(bytes, decode_limits(directory_, region, level));
   if (!mesh) return forward_error(mesh);
   const std::scoped_lock lock(mutex_);
   return stitcher_.add_region(region, std::move(*mesh));

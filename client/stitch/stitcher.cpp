@@ -36,7 +36,10 @@ class VertexMap {
   std::uint32_t count_ = 0;
 };
 
+/// On coarser levels a triangle may have lost a corner to its neighbour, or lie between copies of one vertex.
 void append_triangle(TriangleSoup& soup, Triangle triangle, bool is_turned) {
+  const auto [a, b, c] = triangle;
+  if (a == b || b == c || c == a) return;
   if (is_turned) std::swap(triangle[1], triangle[2]);
   soup.triangles.push_back(triangle);
 }
@@ -50,7 +53,13 @@ Vec3 position_of(const RegionMesh& region, VertexId v, const Grid& grid) {
 }  // namespace
 
 Result<void> Stitcher::add_region(RegionId region, RegionMesh mesh) {
-  if (region >= directory_.regions.size() || mesh.loops.lengths != directory_.regions[region].loop_lengths) {
+  // A level that leaves boundary vertices out has shorter loops; its map was checked when it was decoded.
+  const bool is_finest = mesh.vertex_of_boundary == mesh.loops.vertices;
+  const bool is_sound =
+      region < directory_.regions.size() &&
+      (is_finest ? mesh.loops.lengths == directory_.regions[region].loop_lengths
+                 : mesh.vertex_of_boundary.size() == directory_.regions[region].boundary_vertices());
+  if (!is_sound) {
     return fail(ErrorCode::BadStream,
                 "region " + std::to_string(region) + ": boundary loops differ from the directory's");
   }
@@ -98,7 +107,7 @@ StitchedMesh Stitcher::mesh() const {
         const auto& [region, index] = triangle.corners[k];
         const auto present = regions_.find(region);
         is_complete = present != regions_.end();
-        if (is_complete) corners[k] = map.of(region)[present->second.loops.vertices[index]];
+        if (is_complete) corners[k] = map.of(region)[present->second.vertex_of_boundary[index]];
       }
       if (is_complete) append_triangle(stitched.soup, corners, triangle.is_turned);
     }

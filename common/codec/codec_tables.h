@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #include "common/coding/symbol_models.h"
 
@@ -42,6 +43,10 @@ enum Field : unsigned {
   kExact,  ///< three: by the symbol before on the same axis
   kExact1,
   kExact2,
+  kMapLoop,    ///< bit lengths, as the next: which loop of a coarser level, counted from the one expected
+  kMapLead,    ///< boundary indices before the first whole run
+  kMapRun,     ///< boundary indices that a vertex of a coarser level stands for, less one
+  kMapExcess,  ///< bit lengths: what a run exceeds its largest plain symbol by
   kCount
 };
 }  // namespace region_model
@@ -94,5 +99,7 @@ StartModel unpack(const PackedModel& packed);
 
 /// The tables of this format version.
 const CodecTables& shipped_tables();
+/// A region model as the tables spell it, for training to keep what it does not see.
+std::string_view shipped_region_text(unsigned model);
 
 }  // namespace selvage

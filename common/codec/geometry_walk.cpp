@@ -42,9 +42,10 @@ void set_tangent_plane(FloatLanes normal, Surroundings& around) {
 
 }  // namespace
 
-/// The triangles around a vertex counter-clockwise: each one's corner at the vertex, and the neighbour that it
-/// begins with; in an open fan the last neighbour as well. Sets of them are bits, the last one lowest, so that
-/// the neighbour that a triangle ends with is the next lower bit. Fans beyond kMost triangles are cut short.
+/// The triangles around a vertex counter-clockwise: each one's corner at the vertex, and the neighbour that
+/// it begins with; in an open fan the last neighbour as well. Sets of them are bits, the last one lowest, so
+/// that the neighbour that a triangle ends with is the next lower bit. Fans beyond kMost triangles are cut
+/// short.
 struct GeometryWalk::Fan {
   static constexpr unsigned kMost = 62;
   unsigned triangles = 0;
@@ -186,7 +187,8 @@ SELVAGE_ONE_CALLER void GeometryWalk::summarise(const Fan& fan, Surroundings& ar
        left != 0 && n < kMostParallelograms; left &= left - 1) {
     const unsigned place = fan.place(left);
     const CornerId across = table_.opposite[fan.corners[place]];
-    if (across == kNone || vertices[across] >= kUnvisited) continue;
+    // Two triangles back to back have this very vertex across.
+    if (across == kNone || vertices[across] >= count_) continue;
     const IntLanes p = known[fan.begin(place)].position - base, q = known[fan.end(place)].position - base,
                    r = known[vertices[across]].position - base;
     tips[n] = p + q - r;

@@ -20,9 +20,9 @@ namespace selvage {
 
 class GeometryWalk {
  public:
-  /// Vertices of `table` may have any numbers below its vertex_count(); its corner_of_vertex is not looked at,
-  /// a vertex is a fan of corners. Ends after `most_vertices` at the latest. `extent` is the longest side of
-  /// the region's box; coordinates are below 2^24.
+  /// Vertices of `table` may have any numbers below its vertex_count(); its corner_of_vertex is not looked
+  /// at, a vertex is a fan of corners. Ends after `most_vertices` at the latest. `extent` is the longest side
+  /// of the region's box; coordinates are below 2^24.
   GeometryWalk(CornerTable table, std::uint32_t most_vertices, std::int32_t extent);
 
   /// Goes to the next vertex and looks around; false after the last. Every call must be followed by place()
@@ -65,7 +65,7 @@ class GeometryWalk {
   CornerTable table_;  ///< visited vertices already have their new numbers, the others kUnvisited added
   std::uint32_t most_vertices_, corners_left_;
   std::vector<State> states_;                ///< by old number
-  std::unique_ptr<CornerId[]> well_, once_;        ///< queues of corners
+  std::unique_ptr<CornerId[]> well_, once_;  ///< queues of corners
   std::size_t next_well_ = 0, well_end_ = 0, next_once_ = 0, once_end_ = 0;
   CornerId next_seed_ = 0, current_ = kNone;
   VertexId old_number_ = kNone;

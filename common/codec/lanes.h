@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Four numbers at once, by the vector extension that g++ and clang share: SSE2, NEON or WebAssembly SIMD where
-// there is any, plain code elsewhere. Every operation is one IEEE or integer operation a lane, never fused, so
-// all of them give the same bits.
+// Four numbers at once, by the vector extension that g++ and clang share: SSE2, NEON or WebAssembly SIMD
+// where there is any, plain code elsewhere. Every operation is one IEEE or integer operation a lane, never
+// fused, so all of them give the same bits.
 #pragma once
 
 #include <bit>
@@ -43,7 +43,8 @@ inline FloatLanes log8(FloatLanes v) {
 
 /// Lanes 0 to 2; the last lane of the result means nothing.
 inline FloatLanes cross(FloatLanes a, FloatLanes b) {
-  const FloatLanes a1 = __builtin_shufflevector(a, a, 1, 2, 0, 3), b1 = __builtin_shufflevector(b, b, 1, 2, 0, 3);
+  const FloatLanes a1 = __builtin_shufflevector(a, a, 1, 2, 0, 3),
+                   b1 = __builtin_shufflevector(b, b, 1, 2, 0, 3);
   const FloatLanes c = a * b1 - a1 * b;
   return __builtin_shufflevector(c, c, 1, 2, 0, 3);
 }

@@ -37,17 +37,18 @@ struct Blends {
   static constexpr unsigned kMaxTangent = 4;
 };
 
-/// What the known surroundings of a vertex say about it, x, y, z in lanes 0 to 2. The last lanes mean nothing.
-/// Without known neighbours nothing else is set.
+/// What the known surroundings of a vertex say about it, x, y, z in lanes 0 to 2. The last lanes mean
+/// nothing. Without known neighbours nothing else is set.
 struct Surroundings {
   bool has_neighbours;
   unsigned parallelograms;
   unsigned shape_class, size_class;
   unsigned normal_axis;
-  IntLanes base;                          ///< position of a neighbour; the last lane is 0
-  FloatLanes mean, beyond, ring, trend;   ///< P - base, P - E, N - E, T; without parallelograms N - base, 0, 0, 0
-  float slopes[2];                        ///< rise along the normal axis for a step along axis + 1, axis + 2
-  FloatLanes logs;                        ///< log8 of four times: errors nearby, tangential and normal; spread; reach
+  IntLanes base;  ///< position of a neighbour; the last lane is 0
+  FloatLanes mean, beyond, ring,
+      trend;        ///< P - base, P - E, N - E, T; without parallelograms N - base, 0, 0, 0
+  float slopes[2];  ///< rise along the normal axis for a step along axis + 1, axis + 2
+  FloatLanes logs;  ///< log8 of four times: errors nearby, tangential and normal; spread; reach
   std::int32_t recent_tangential, recent_normal;  ///< running means of the same
 };
 

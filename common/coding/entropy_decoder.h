@@ -5,7 +5,7 @@
 // cost as little as 2^-15 bits (see kMaxSymbolsPerByte).
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cstdint>
 #include <span>
 
@@ -77,14 +77,14 @@ class EntropyDecoder {
   }
 
   /// False as soon as more was read than there is.
-  bool ok() const { return !overran_; }
+  bool ok() const { return !overran_ && filled_ >= invented_; }
 
   /// True if every byte was consumed and the states are back where the encoder started: the stream was whole.
   bool is_finished() const {
     // Whole bytes in the buffer were read ahead; the bits of a byte begun must be zero.
-    const std::byte* used_to = bits_at_ + filled_ / 8;
+    const std::byte* used_to = bits_at_ + (filled_ - invented_) / 8;
     const std::uint64_t padding = buffer_ & ((std::uint64_t{1} << (filled_ % 8)) - 1);
-    return !overran_ && state_ == kStateLow && padding == 0 && at_ == used_to;
+    return ok() && state_ == kStateLow && padding == 0 && at_ == used_to;
   }
 
  private:
@@ -126,7 +126,7 @@ class EntropyDecoder {
       if (bits_at_ != begin_) {
         buffer_ |= std::to_integer<std::uint64_t>(*--bits_at_) << filled_;
       } else {
-        overran_ = true;
+        invented_ = std::min(invented_ + 8, 1 << 20);
       }
       filled_ += 8;
     }
@@ -139,6 +139,7 @@ class EntropyDecoder {
   std::uint32_t state_ = kStateLow;
   std::uint64_t buffer_ = 0;
   int filled_ = 0;
+  int invented_ = 0;  ///< zero bits from before the first byte: bad if more were taken than those behind them
   bool overran_ = false;
 };
 

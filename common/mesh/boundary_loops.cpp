@@ -6,7 +6,9 @@ namespace {
 
 /// The border half-edge that leaves a border vertex v is the edge v -> vertex(next(c)) of its most clockwise
 /// corner c: nothing lies clockwise of it.
-VertexId next_on_border(const CornerTable& table, VertexId v) { return table.vertex(next(table.corner_of_vertex[v])); }
+VertexId next_on_border(const CornerTable& table, VertexId v) {
+  return table.vertex(next(table.corner_of_vertex[v]));
+}
 
 bool is_on_border(const CornerTable& table, VertexId v) {
   return table.corner_of_vertex[v] != kNone && table.is_border_vertex(v);

@@ -32,7 +32,7 @@ enum class FrameType : std::uint8_t {
   RequestEnd = 10,
   Credit = 11,
   Cancel = 12,
-  Reprioritise = 13,  ///< reserved; receivers ignore it
+  Reprioritise = 13,
   Error = 14,
   Ping = 15,
   Pong = 16,

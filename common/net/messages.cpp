@@ -141,6 +141,8 @@ wire::Models to_wire(const Models& message) {
 wire::OpenModel to_wire(const OpenModel& message) {
   wire::OpenModel out;
   out.set_name(message.name);
+  out.set_summary_only(message.summary_only);
+  if (message.held) out.set_held(bytes_of(*message.held));
   return out;
 }
 
@@ -149,6 +151,7 @@ wire::ManifestBegin to_wire(const ManifestBegin& message) {
   out.set_pack_id(bytes_of(message.pack_id));
   out.set_summary_size(message.summary_size);
   out.set_directory_size(message.directory_size);
+  out.set_data_size(message.data_size);
   return out;
 }
 
@@ -165,6 +168,10 @@ void put(const Selection& selection, wire::GetParts& out) {
       break;
   }
   out.set_level(selection.level);
+  for (const auto& [region, level] : selection.levels) {
+    out.mutable_levels()->add_regions(region);
+    out.mutable_levels()->add_levels(level);
+  }
   out.set_joins(static_cast<std::uint32_t>(selection.joins));
 }
 
@@ -179,6 +186,13 @@ wire::GetParts to_wire(const GetParts& message) {
     partial.set_hash(bytes_of(part.hash));
     partial.set_offset(part.offset);
   }
+  out.set_urgency(message.urgency);
+  out.set_pages(static_cast<std::uint32_t>(message.pages));
+  return out;
+}
+
+wire::Reprioritise to_wire(const Reprioritise& message) {
+  wire::Reprioritise out;
   out.set_urgency(message.urgency);
   return out;
 }
@@ -270,14 +284,18 @@ Result<Models> from_wire(const wire::Models& in) {
 
 Result<OpenModel> from_wire(const wire::OpenModel& in) {
   Check check(FrameType::OpenModel);
-  OpenModel out{name_from(in.name(), "name", check)};
+  OpenModel out{name_from(in.name(), "name", check), in.summary_only()};
+  if (!in.held().empty()) out.held = hash_from(in.held(), "held", check);
   return check.result(std::move(out));
 }
 
 Result<ManifestBegin> from_wire(const wire::ManifestBegin& in) {
   Check check(FrameType::ManifestBegin);
-  const ManifestBegin out{hash_from(in.pack_id(), "pack_id", check), in.summary_size(), in.directory_size()};
+  const ManifestBegin out{hash_from(in.pack_id(), "pack_id", check), in.summary_size(), in.directory_size(),
+                          in.data_size()};
   check.that(out.directory_size > 0 && out.summary_size <= out.directory_size, "sizes");
+  check.that(out.data_size == 0 || out.data_size == out.summary_size || out.data_size == out.directory_size,
+             "data_size");
   return check.result(out);
 }
 
@@ -300,6 +318,10 @@ Selection selection_from(const wire::GetParts& in, Check& check) {
       break;
   }
   out.level = u8_from(in.level(), 255, "level", check);
+  const wire::RegionLevels& levels = in.levels();
+  check.that(levels.regions_size() == levels.levels_size(), "levels");
+  for (int i = 0; i < std::min(levels.regions_size(), levels.levels_size()); ++i)
+    out.levels.push_back({levels.regions(i), u8_from(levels.levels(i), 255, "levels", check)});
   out.joins = static_cast<Joins>(u8_from(in.joins(), static_cast<std::uint32_t>(Joins::All), "joins", check));
   return out;
 }
@@ -316,14 +338,21 @@ Result<GetParts> from_wire(const wire::GetParts& in) {
     out.partial.push_back({hash_from(part.hash(), "partial", check), part.offset()});
   }
   out.urgency = u8_from(in.urgency(), kMaxUrgency, "urgency", check);
+  out.pages = static_cast<Pages>(u8_from(in.pages(), static_cast<std::uint32_t>(Pages::All), "pages", check));
   return check.result(std::move(out));
+}
+
+Result<Reprioritise> from_wire(const wire::Reprioritise& in) {
+  Check check(FrameType::Reprioritise);
+  const Reprioritise out{u8_from(in.urgency(), kMaxUrgency, "urgency", check)};
+  return check.result(out);
 }
 
 Result<PartBegin> from_wire(const wire::PartBegin& in) {
   Check check(FrameType::PartBegin);
   PartBegin out;
   out.id.kind =
-      static_cast<PartKind>(u8_from(in.kind(), static_cast<std::uint32_t>(PartKind::Bundle), "kind", check));
+      static_cast<PartKind>(u8_from(in.kind(), static_cast<std::uint32_t>(PartKind::Page), "kind", check));
   out.id.region = in.region();
   out.id.level = u8_from(in.level(), 255, "level", check);
   out.size = in.size();
@@ -403,6 +432,7 @@ SELVAGE_MESSAGE(Models)
 SELVAGE_MESSAGE(OpenModel)
 SELVAGE_MESSAGE(ManifestBegin)
 SELVAGE_MESSAGE(GetParts)
+SELVAGE_MESSAGE(Reprioritise)
 SELVAGE_MESSAGE(PartBegin)
 SELVAGE_MESSAGE(RequestEnd)
 SELVAGE_MESSAGE(Credit)

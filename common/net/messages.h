@@ -77,14 +77,17 @@ struct Models {
 struct OpenModel {
   static constexpr FrameType kType = FrameType::OpenModel;
   std::string name;
+  bool summary_only = false;      ///< the first page of the directory will do for now
+  std::optional<Hash> held = {};  ///< pack whose directory the client has: not sent again if it is that one
 };
 
-/// The directory follows in Data frames.
+/// The directory, its summary page or nothing follows in Data frames.
 struct ManifestBegin {
   static constexpr FrameType kType = FrameType::ManifestBegin;
   Hash pack_id;
   std::uint32_t summary_size = 0;
   std::uint64_t directory_size = 0;  ///< not below summary_size, not 0
+  std::uint64_t data_size = 0;  ///< what follows: directory_size, summary_size, or 0 if the client has it
 };
 
 /// A part of which the client holds the first bytes.
@@ -101,6 +104,13 @@ struct GetParts {
   std::vector<Hash> have;       ///< parts that need not be sent
   std::vector<PartialPart> partial;
   std::uint8_t urgency = kDefaultUrgency;  ///< 0, most urgent, to kMaxUrgency
+  Pages pages = Pages::None;               ///< of the directory, for clients that opened its summary only
+};
+
+/// Changes the urgency of the request in the frame's header, from the next write on.
+struct Reprioritise {
+  static constexpr FrameType kType = FrameType::Reprioritise;
+  std::uint8_t urgency = kDefaultUrgency;  ///< 0 to kMaxUrgency
 };
 
 /// A part's bytes follow in Data frames, from `offset` to `size`.

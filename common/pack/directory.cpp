@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "common/coding/byte_io.h"
@@ -11,7 +12,6 @@
 namespace selvage {
 namespace {
 
-constexpr std::uint32_t kRegionsPerPage = 256;
 constexpr std::uint32_t kMaxLevels = 16;
 constexpr std::size_t kMaxTextLength = 4096;
 
@@ -46,19 +46,23 @@ void read_box(ByteReader& in, const Grid& grid, GridPoint& low, GridPoint& high)
   }
 }
 
-// One region entry: box; loops; levels {vertices, triangles, deviation, size, hash}; bundle {size [,
-// triangles, neighbours as distances down from the region's own number, hash]}.
+// One region entry: box; loops; levels {size, vertices, triangles, hash, and from the second on deviation and
+// dropped bits; nothing but size 0 if it repeats the one before}; bundle {size [, triangles, neighbours as
+// distances down from the region's own number, hash]}.
 void write_entry(ByteWriter& out, RegionId id, const RegionEntry& entry) {
   write_box(out, entry.box_min, entry.box_max);
   out.varint(entry.loop_lengths.size());
   for (std::uint32_t length : entry.loop_lengths) out.varint(length);
   out.varint(entry.levels.size());
   for (const LevelEntry& level : entry.levels) {
+    out.varint(level.is_repeat ? 0 : level.part.size);
+    if (level.is_repeat) continue;
     out.varint(level.vertices);
     out.varint(level.triangles);
-    if (&level != &entry.levels.front()) out.f32(level.deviation);
-    out.varint(level.part.size);
     write_hash(out, level.part.hash);
+    if (&level == &entry.levels.front()) continue;
+    out.f32(level.deviation);
+    out.u8(level.dropped_bits);
   }
   out.varint(entry.bundle.size);
   if (entry.bundle.size == 0) return;
@@ -72,17 +76,31 @@ void write_entry(ByteWriter& out, RegionId id, const RegionEntry& entry) {
   write_hash(out, entry.bundle.hash);
 }
 
-void read_levels(ByteReader& in, RegionEntry& entry) {
-  const std::uint32_t count = in.count(2);
+void read_levels(ByteReader& in, int grid_bits, RegionEntry& entry) {
+  const std::uint32_t count = in.count(1);
   if (count > kMaxLevels) return in.set_failed();
-  entry.levels.resize(count);
-  for (LevelEntry& level : entry.levels) {
-    level.vertices = in.varint32();
-    level.triangles = in.varint32();
-    if (&level != &entry.levels.front()) level.deviation = in.f32();
+  for (std::uint32_t i = 0; i < count && in.ok(); ++i) {
+    LevelEntry level;
     level.part.size = in.varint32();
-    level.part.hash = read_hash(in);
-    if (level.part.size == 0 || level.vertices == 0 || !(level.deviation >= 0)) in.set_failed();
+    if (level.part.size == 0) {
+      if (i == 0) return in.set_failed();
+      level = entry.levels.back();
+      level.is_repeat = true;
+    } else {
+      level.vertices = in.varint32();
+      level.triangles = in.varint32();
+      level.part.hash = read_hash(in);
+      if (i > 0) {
+        level.deviation = in.f32();
+        level.dropped_bits = in.u8();
+      }
+      const bool is_sound =
+          level.vertices > 0 && level.deviation >= 0 && level.dropped_bits < grid_bits &&
+          (i == 0 || (level.vertices <= entry.levels.back().vertices &&
+                      level.triangles <= entry.levels.back().triangles && level.triangles > 0));
+      if (!is_sound) in.set_failed();
+    }
+    entry.levels.push_back(level);
   }
 }
 
@@ -106,7 +124,7 @@ RegionEntry read_entry(ByteReader& in, RegionId id, const Grid& grid) {
   read_box(in, grid, entry.box_min, entry.box_max);
   entry.loop_lengths.resize(in.count(1));
   for (std::uint32_t& length : entry.loop_lengths) length = in.varint32();
-  read_levels(in, entry);
+  read_levels(in, grid.bits, entry);
   read_bundle(in, id, entry);
   if (!in.ok()) return entry;
   const std::uint64_t on_loops =
@@ -149,7 +167,7 @@ void visit_source_counts(SourceCounts& source, Visit visit) {
 
 std::uint64_t parts_size(const RegionEntry& entry) {
   std::uint64_t size = entry.bundle.size;
-  for (const LevelEntry& level : entry.levels) size += level.part.size;
+  for (const LevelEntry& level : entry.levels) size += level.is_repeat ? 0 : level.part.size;
   return size;
 }
 
@@ -251,12 +269,15 @@ void write_summary(ByteWriter& out, Directory& directory, const std::vector<Page
 }
 
 /// Offsets follow from the order of parts alone, so they take no bytes in the directory.
-std::uint64_t assign_offsets(Directory& directory, std::uint64_t first_part) {
-  std::uint64_t at = first_part;
-  for (RegionEntry& entry : directory.regions) {
+std::uint64_t assign_offsets(std::span<RegionEntry> regions, std::uint64_t at) {
+  for (RegionEntry& entry : regions) {
     for (auto level = entry.levels.rbegin(); level != entry.levels.rend(); ++level) {
+      if (level->is_repeat) continue;
       level->part.offset = at;
       at += level->part.size;
+    }
+    for (std::size_t i = 1; i < entry.levels.size(); ++i) {
+      if (entry.levels[i].is_repeat) entry.levels[i].part = entry.levels[i - 1].part;
     }
     entry.bundle.offset = at;
     at += entry.bundle.size;
@@ -264,18 +285,16 @@ std::uint64_t assign_offsets(Directory& directory, std::uint64_t first_part) {
   return at;
 }
 
-struct PageRef {
-  std::uint32_t size = 0;
-  std::uint64_t parts_size = 0;
-  Hash hash;
-};
+/// The least that one entry takes: box, no loops, no levels, no bundle.
+constexpr std::uint64_t kMinEntrySize = 9;
 
-struct Summary {
-  std::uint32_t region_count = 0;
-  std::vector<PageRef> pages;
-};
+std::uint32_t regions_in(const Directory& directory, std::uint32_t page) {
+  const auto left = static_cast<std::uint32_t>(directory.regions.size()) - page * kRegionsPerPage;
+  return std::min(kRegionsPerPage, left);
+}
 
-Summary read_summary(ByteReader& in, Directory& directory) {
+/// Fills in all but the regions; gives their number.
+std::uint32_t read_summary(ByteReader& in, Directory& directory) {
   directory.name = in.string(kMaxTextLength);
   directory.units = in.string(kMaxTextLength);
   const std::uint32_t metadata = in.count(2);
@@ -289,42 +308,43 @@ Summary read_summary(ByteReader& in, Directory& directory) {
   directory.triangles = in.varint32();
   directory.boundary_triangles = in.varint32();
   directory.connectivity_bytes = in.varint();
-  Summary summary;
-  summary.region_count = in.varint32();
-  if (summary.region_count == 0 || page_count(summary.region_count) > in.left()) in.set_failed();
-  summary.pages.resize(in.ok() ? page_count(summary.region_count) : 0);
-  for (PageRef& page : summary.pages) {
-    page.size = in.varint32();
+  const std::uint32_t region_count = in.varint32();
+  if (region_count == 0 || page_count(region_count) > in.left()) in.set_failed();
+  directory.pages.resize(in.ok() ? page_count(region_count) : 0);
+  for (PageEntry& page : directory.pages) {
+    page.part.size = in.varint32();
     page.parts_size = in.varint();
-    GridPoint low, high;  // for clients that fetch pages one by one
-    read_box(in, directory.grid, low, high);
-    page.hash = read_hash(in);
+    read_box(in, directory.grid, page.box_min, page.box_max);
+    page.part.hash = read_hash(in);
   }
-  read_names(in, summary.region_count, directory.names);
-  return summary;
+  read_names(in, region_count, directory.names);
+  return region_count;
 }
 
-/// Appends the entries of one page, whose bytes have been checked against their hash.
-Result<void> read_page(std::span<const std::byte> bytes, const PageRef& page, std::uint32_t regions_in_page,
-                       Directory& directory) {
-  ByteReader in(bytes);
-  std::uint64_t parts = 0;
-  for (std::uint32_t i = 0; i < regions_in_page; ++i) {
-    directory.regions.push_back(
-        read_entry(in, static_cast<RegionId>(directory.regions.size()), directory.grid));
-    if (!in.ok()) return fail(ErrorCode::BadStream, "directory: malformed region entry", in.offset());
-    parts += parts_size(directory.regions.back());
+/// Where the pages lie, and the parts that they list. False if they do not fill the directory.
+bool place_pages(Directory& directory, std::uint64_t summary_size, std::uint64_t directory_size) {
+  std::uint64_t page_at = kPackHeaderSize + summary_size;
+  std::uint64_t part_at = kPackHeaderSize + directory_size;
+  for (PageEntry& page : directory.pages) {
+    if (page.parts_size > std::numeric_limits<std::uint64_t>::max() - part_at) return false;
+    page.part.offset = page_at;
+    page.first_part = part_at;
+    page_at += page.part.size;
+    part_at += page.parts_size;
   }
-  if (!in.at_end() || parts != page.parts_size) {
-    return fail(ErrorCode::BadStream, "directory: page does not hold what the summary says", in.offset());
-  }
-  return {};
+  return page_at == kPackHeaderSize + directory_size;
 }
 
 }  // namespace
 
 std::uint32_t RegionEntry::boundary_vertices() const {
   return std::accumulate(loop_lengths.begin(), loop_lengths.end(), std::uint32_t{0});
+}
+
+std::uint8_t RegionEntry::canonical_level(std::uint32_t level) const {
+  std::size_t at = std::min<std::size_t>(level, levels.size() - 1);
+  while (levels[at].is_repeat) --at;
+  return static_cast<std::uint8_t>(at);
 }
 
 const NamedRegions* Directory::find_name(std::string_view text) const {
@@ -335,10 +355,19 @@ const NamedRegions* Directory::find_name(std::string_view text) const {
 }
 
 const PartRef* Directory::find(const PartId& id) const {
+  if (id.kind == PartKind::Page)
+    return id.level == 0 && id.region < pages.size() ? &pages[id.region].part : nullptr;
   if (id.region >= regions.size()) return nullptr;
   const RegionEntry& entry = regions[id.region];
   if (id.kind == PartKind::Bundle) return id.level == 0 && entry.bundle.size > 0 ? &entry.bundle : nullptr;
-  return id.level < entry.levels.size() ? &entry.levels[id.level].part : nullptr;
+  const bool is_there = id.level < entry.levels.size() && !entry.levels[id.level].is_repeat;
+  return is_there ? &entry.levels[id.level].part : nullptr;
+}
+
+std::uint32_t Directory::level_count() const {
+  std::size_t count = 1;
+  for (const RegionEntry& entry : regions) count = std::max(count, entry.levels.size());
+  return static_cast<std::uint32_t>(count);
 }
 
 DirectoryBytes write_directory(Directory& directory) {
@@ -348,35 +377,74 @@ DirectoryBytes write_directory(Directory& directory) {
   ByteWriter out;
   write_summary(out, directory, pages);
   const auto summary_size = static_cast<std::uint32_t>(out.size());
-  for (const Page& page : pages) out.append(page.bytes);
-  assign_offsets(directory, kPackHeaderSize + out.size());
+  directory.pages.clear();
+  for (const Page& page : pages) {
+    const PartRef part{0, static_cast<std::uint32_t>(page.bytes.size()), hash_of(page.bytes)};
+    directory.pages.push_back({part, 0, page.parts_size, page.low, page.high, true});
+    out.append(page.bytes);
+  }
+  place_pages(directory, summary_size, out.size());
+  assign_offsets(directory.regions, kPackHeaderSize + out.size());
   return {std::move(out).take(), summary_size};
+}
+
+Result<Directory> parse_summary(std::span<const std::byte> summary, std::uint64_t directory_size,
+                                std::uint32_t max_regions) {
+  Directory directory;
+  ByteReader in(summary);
+  const std::uint32_t region_count = read_summary(in, directory);
+  if (!in.at_end()) return fail(ErrorCode::BadStream, "directory: malformed summary page", in.offset());
+  if (region_count > max_regions) {
+    return fail(ErrorCode::LimitExceeded, "directory: " + std::to_string(region_count) +
+                                              " regions are more than the limit of " +
+                                              std::to_string(max_regions));
+  }
+  if (!place_pages(directory, summary.size(), directory_size))
+    return fail(ErrorCode::BadStream, "directory: pages do not fill it", summary.size());
+  directory.regions.resize(region_count);
+  return directory;
+}
+
+Result<void> read_page(Directory& directory, std::uint32_t page, std::span<const std::byte> bytes) {
+  if (page >= directory.pages.size())
+    return fail(ErrorCode::BadStream, "directory: no page " + std::to_string(page));
+  PageEntry& entry = directory.pages[page];
+  if (entry.is_read) return {};
+  if (auto ok = check_part(entry.part, bytes); !ok) {
+    return fail(ErrorCode::BadStream, "directory: page " + std::to_string(page) + " does not match its hash",
+                0);
+  }
+  ByteReader in(bytes);
+  std::vector<RegionEntry> regions;
+  std::uint64_t parts = 0;
+  const RegionId first = page * kRegionsPerPage;
+  for (RegionId id = first; id < first + regions_in(directory, page); ++id) {
+    regions.push_back(read_entry(in, id, directory.grid));
+    if (!in.ok()) return fail(ErrorCode::BadStream, "directory: malformed region entry", in.offset());
+    parts += parts_size(regions.back());
+  }
+  if (!in.at_end() || parts != entry.parts_size) {
+    return fail(ErrorCode::BadStream, "directory: page does not hold what the summary says", in.offset());
+  }
+  assign_offsets(regions, entry.first_part);
+  std::ranges::move(regions, directory.regions.begin() + first);
+  entry.is_read = true;
+  return {};
 }
 
 Result<Directory> parse_directory(std::span<const std::byte> bytes, std::uint32_t summary_size) {
   if (summary_size > bytes.size())
     return fail(ErrorCode::BadStream, "directory: shorter than its summary page");
-  Directory directory;
-  ByteReader in(bytes.first(summary_size));
-  const Summary summary = read_summary(in, directory);
-  if (!in.at_end()) return fail(ErrorCode::BadStream, "directory: malformed summary page", in.offset());
-
-  ByteReader rest(bytes.subspan(summary_size));
-  for (const PageRef& page : summary.pages) {
-    const std::uint64_t offset = summary_size + rest.offset();
-    const auto page_bytes = rest.take(page.size);
-    if (!rest.ok()) return fail(ErrorCode::BadStream, "directory: truncated page", offset);
-    if (hash_of(page_bytes) != page.hash)
-      return fail(ErrorCode::BadStream, "directory: page does not match its hash", offset);
-    const auto read = static_cast<std::uint32_t>(directory.regions.size());
-    const auto in_page = std::min(kRegionsPerPage, summary.region_count - read);
-    if (auto ok = read_page(page_bytes, page, in_page, directory); !ok) {
+  const auto most = static_cast<std::uint32_t>(
+      std::min<std::uint64_t>(bytes.size() / kMinEntrySize, std::numeric_limits<std::uint32_t>::max()));
+  auto directory = parse_summary(bytes.first(summary_size), bytes.size(), most);
+  if (!directory) return directory;
+  for (std::uint32_t page = 0; page < directory->pages.size(); ++page) {
+    const PartRef part = directory->pages[page].part;
+    const std::uint64_t offset = part.offset - kPackHeaderSize;
+    if (auto ok = read_page(*directory, page, bytes.subspan(offset, part.size)); !ok)
       return fail(ok.error().code, ok.error().message, offset + ok.error().offset);
-    }
   }
-  if (!rest.at_end())
-    return fail(ErrorCode::BadStream, "directory: bytes after its last page", summary_size + rest.offset());
-  assign_offsets(directory, kPackHeaderSize + bytes.size());
   return directory;
 }
 

@@ -19,13 +19,14 @@
 
 namespace selvage {
 
-/// A part is the unit of addressing, hashing, caching and sending: one level of one region, or one bundle.
-enum class PartKind : std::uint8_t { Region = 0, Bundle = 1 };
+/// A part is the unit of addressing, hashing, caching and sending: one level of one region, one bundle, or
+/// one page of the directory itself.
+enum class PartKind : std::uint8_t { Region = 0, Bundle = 1, Page = 2 };
 
 struct PartId {
   PartKind kind = PartKind::Region;
-  RegionId region = 0;
-  std::uint8_t level = 0;  ///< 0 is the full resolution; always 0 for bundles
+  RegionId region = 0;     ///< of a page: its number
+  std::uint8_t level = 0;  ///< 0 is the full resolution; always 0 for bundles and pages
   friend auto operator<=>(const PartId&, const PartId&) = default;
 };
 
@@ -36,11 +37,19 @@ struct PartRef {
   Hash hash;
 };
 
+/// One region at one level of detail.
 struct LevelEntry {
   PartRef part;
   std::uint32_t vertices = 0;
   std::uint32_t triangles = 0;  ///< interior triangles of the region at this level
-  float deviation = 0;          ///< model units from the full resolution, quantisation not counted
+  /// How far the model may lie from the finest level, in model units and in either direction, where this
+  /// region and its neighbours are at this level: measured at build, the level's rounding counted. The finest
+  /// level's own rounding (half a grid step an axis) comes on top.
+  float deviation = 0;
+  std::uint8_t dropped_bits = 0;  ///< low bits of every coordinate that this level leaves out
+  /// The region is what it was one level finer: the same part, counts and deviation. It is listed, so that
+  /// every region has every level, and addressed as the finer one (RegionEntry::canonical_level).
+  bool is_repeat = false;
 };
 
 struct RegionEntry {
@@ -53,6 +62,9 @@ struct RegionEntry {
   std::uint32_t bundle_triangles = 0;
 
   std::uint32_t boundary_vertices() const;
+  /// The level to address where `level` is wanted: the coarsest if there is none so coarse, the finest of
+  /// those that it repeats. `levels` must not be empty.
+  std::uint8_t canonical_level(std::uint32_t level) const;
 };
 
 /// What became of the input, for people and for `compare`: counts of the file's own elements.
@@ -79,6 +91,18 @@ struct NamedRegions {
   friend bool operator==(const NamedRegions&, const NamedRegions&) = default;
 };
 
+/// One page of the directory, as the summary describes it. It lists the regions [n * kRegionsPerPage,
+/// (n + 1) * kRegionsPerPage).
+struct PageEntry {
+  PartRef part;                  ///< of the page's own bytes
+  std::uint64_t first_part = 0;  ///< where the parts that it lists begin, one after the other
+  std::uint64_t parts_size = 0;
+  GridPoint box_min, box_max;  ///< of its regions
+  bool is_read = false;        ///< its regions are in `regions`
+};
+inline constexpr std::uint32_t kRegionsPerPage = 256;
+inline constexpr std::uint32_t page_of(RegionId region) { return region / kRegionsPerPage; }
+
 struct Directory {
   std::string name;
   std::string units;  ///< as the user named them; empty if unknown
@@ -92,8 +116,12 @@ struct Directory {
   std::uint64_t connectivity_bytes = 0;  ///< of all region parts, the share that is connectivity: for people
   std::vector<NamedRegions> names;       ///< by name, each once; a region may have several names or none
   std::vector<RegionEntry> regions;      ///< by RegionId; [kLooseRegion] always exists
+  std::vector<PageEntry> pages;          ///< filled in by writing and parsing
 
-  const PartRef* find(const PartId& id) const;                 ///< null if there is no such part
+  /// The region's page has been read. Always so, but for a directory that parse_summary began.
+  bool has(RegionId region) const { return pages.empty() || pages[page_of(region)].is_read; }
+  const PartRef* find(const PartId& id) const;  ///< null if there is no such part, or it repeats another
+  std::uint32_t level_count() const;            ///< most levels of a region; 1 without levels of detail
   const NamedRegions* find_name(std::string_view name) const;  ///< null if no part is called so
   std::uint32_t real_region_count() const { return static_cast<std::uint32_t>(regions.size()) - 1; }
 };
@@ -111,6 +139,14 @@ DirectoryBytes write_directory(Directory& directory);
 /// Parses and checks hostile bytes: page hashes, counts, order, and that parts tile [end of directory, end of
 /// file).
 Result<Directory> parse_directory(std::span<const std::byte> bytes, std::uint32_t summary_size);
+
+/// The same page by page, for clients that need some regions of very many: first the summary, which gives
+/// everything but the regions (they are there, and empty), then any pages in any order. LimitExceeded beyond
+/// `max_regions`, for which the summary alone makes room.
+Result<Directory> parse_summary(std::span<const std::byte> summary, std::uint64_t directory_size,
+                                std::uint32_t max_regions = 1u << 20);
+/// BadStream, with nothing read, if the bytes are not that page. Reading one again changes nothing.
+Result<void> read_page(Directory& directory, std::uint32_t page, std::span<const std::byte> bytes);
 
 /// The identity of the pack with this directory.
 Hash pack_id(std::span<const std::byte> directory_bytes, std::uint32_t summary_size);

@@ -29,8 +29,8 @@ struct PackHeader {
 /// serving the sessions that already opened it.
 class Pack {
  public:
-  /// Maps the file and parses header and directory; parts are not touched. Errors name the file: NotFound, Io,
-  /// Unsupported (newer major version), BadStream (anything malformed or truncated).
+  /// Maps the file and parses header and directory; parts are not touched. Errors name the file: NotFound,
+  /// Io, Unsupported (newer major version), BadStream (anything malformed or truncated).
   static Result<std::shared_ptr<const Pack>> open(const std::filesystem::path& path);
   /// The same over bytes in memory, which it keeps.
   static Result<std::shared_ptr<const Pack>> from_bytes(std::vector<std::byte> bytes);
@@ -62,7 +62,8 @@ class Pack {
 Result<void> check_part(const PartRef& ref, std::span<const std::byte> bytes);
 
 /// Lays out a whole pack. `parts` are in the order of write_directory: for every region its levels coarsest
-/// first, then its bundle if it has one. Sizes and hashes in `directory` are filled in from them.
+/// first, those that repeat another left out, then its bundle if it has one. Sizes and hashes in `directory`
+/// are filled in from them.
 std::vector<std::byte> assemble_pack(Directory directory, const std::vector<std::vector<std::byte>>& parts);
 
 }  // namespace selvage

@@ -5,18 +5,27 @@
 #include <charconv>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 namespace selvage {
 namespace {
 
 constexpr std::size_t kMaxListedRegions = 1'000'000;
 
-bool meets(const Grid& grid, const RegionEntry& entry, const Box& box) {
-  const Vec3 low = grid.position(entry.box_min), high = grid.position(entry.box_max);
+bool meets(const Grid& grid, const GridPoint& box_min, const GridPoint& box_max, const Box& box) {
+  const Vec3 low = grid.position(box_min), high = grid.position(box_max);
   for (int axis = 0; axis < 3; ++axis) {
     if (high[axis] < box.min[axis] || low[axis] > box.max[axis]) return false;
   }
   return true;
+}
+
+/// For a region whose page has not been read, its page's box stands in.
+bool meets(const Directory& directory, RegionId id, const Box& box) {
+  const RegionEntry& entry = directory.regions[id];
+  if (directory.has(id)) return meets(directory.grid, entry.box_min, entry.box_max, box);
+  const PageEntry& page = directory.pages[page_of(id)];
+  return meets(directory.grid, page.box_min, page.box_max, box);
 }
 
 std::vector<RegionId> all_regions(const Directory& directory) {
@@ -78,6 +87,34 @@ Result<void> add_range(const RegionRange& range, std::vector<RegionId>& ids) {
   return {};
 }
 
+/// By region; those that are not selected have one, too.
+std::vector<std::uint8_t> levels_of(const Directory& directory, const Selection& selection) {
+  std::vector<std::uint8_t> level_of_region(directory.regions.size(), selection.level);
+  std::vector<bool> is_named(directory.regions.size(), false);
+  for (const auto& [region, level] : selection.levels) {
+    if (region >= directory.regions.size()) continue;
+    std::uint8_t& chosen = level_of_region[region];
+    chosen = is_named[region] ? std::min(chosen, level) : level;
+    is_named[region] = true;
+  }
+  return level_of_region;
+}
+
+/// Takes "@2" off the end of a piece, if there is such a thing.
+Result<std::optional<std::uint8_t>> take_level(std::string_view& piece) {
+  const std::size_t at = piece.rfind('@');
+  if (at == std::string_view::npos) return std::nullopt;
+  const std::string_view digits = piece.substr(at + 1);
+  if (digits.empty() || digits.find_first_not_of("0123456789") != std::string_view::npos) return std::nullopt;
+  std::uint8_t level = 0;
+  if (!parse_number(digits, level)) {
+    return fail(ErrorCode::InvalidArgument,
+                "'" + std::string(piece) + "': levels are numbers up to 255, 0 is the finest");
+  }
+  piece = piece.substr(0, at);
+  return level;
+}
+
 std::string unknown_name(const Directory& directory, const std::string& name) {
   constexpr std::size_t kShown = 10;
   std::string message = "no part is called '" + name + "'";
@@ -96,13 +133,14 @@ Result<std::vector<RegionId>> select_regions(const Directory& directory, const S
   std::vector<RegionId> regions;
   switch (selection.kind) {
     case Selection::Kind::All:
-      return all_regions(directory);
+      regions = all_regions(directory);
+      break;
     case Selection::Kind::Ids:
       regions = selection.ids;
       break;
     case Selection::Kind::Box:
       for (RegionId id : all_regions(directory)) {
-        if (meets(directory.grid, directory.regions[id], selection.box)) regions.push_back(id);
+        if (meets(directory, id, selection.box)) regions.push_back(id);
       }
       break;
   }
@@ -114,6 +152,11 @@ Result<std::vector<RegionId>> select_regions(const Directory& directory, const S
                                            " in this model; it has regions 1 to " +
                                            std::to_string(directory.real_region_count()));
     }
+    if (!directory.has(id)) {
+      return fail(ErrorCode::InvalidArgument, "page " + std::to_string(page_of(id)) +
+                                                  " of the directory, which lists region " +
+                                                  std::to_string(id) + ", has not been read");
+    }
   }
   return regions;
 }
@@ -124,6 +167,8 @@ Result<std::vector<PartId>> select_parts(const Directory& directory, const Selec
   std::vector<bool> is_selected(directory.regions.size(), false);
   for (RegionId id : *regions) is_selected[id] = true;
   const std::vector<bool> is_bundle_sent = select_bundles(directory, selection, is_selected);
+
+  const std::vector<std::uint8_t> level_of_region = levels_of(directory, selection);
 
   std::vector<PartId> parts;
   const RegionEntry& loose = directory.regions[kLooseRegion];
@@ -137,20 +182,45 @@ Result<std::vector<PartId>> select_parts(const Directory& directory, const Selec
   for (RegionId id = 0; id < directory.regions.size(); ++id) {
     const RegionEntry& entry = directory.regions[id];
     if (is_selected[id]) {
-      const auto coarsest = static_cast<std::uint8_t>(entry.levels.size() - 1);
-      parts.push_back({PartKind::Region, id, std::min(selection.level, coarsest)});
+      parts.push_back({PartKind::Region, id, entry.canonical_level(level_of_region[id])});
     }
     if (is_bundle_sent[id]) parts.push_back({PartKind::Bundle, id, 0});
   }
   return parts;
 }
 
+std::vector<PartId> with_pages(const Directory& directory, std::vector<PartId> parts, Pages pages) {
+  if (pages == Pages::None) return parts;
+  std::vector<PartId> all;
+  all.reserve(parts.size() + directory.pages.size());
+  std::vector<bool> is_listed(directory.pages.size(), false);
+  const auto list = [&](std::uint32_t page) {
+    if (!is_listed[page]) all.push_back({PartKind::Page, page, 0});
+    is_listed[page] = true;
+  };
+  for (const PartId& part : parts) {
+    list(page_of(part.region));
+    // A bundle decodes from the loop lengths of all regions that it touches.
+    if (part.kind == PartKind::Bundle) {
+      for (RegionId below : directory.regions[part.region].lower_neighbours) list(page_of(below));
+    }
+    all.push_back(part);
+  }
+  if (pages == Pages::All) {
+    for (std::uint32_t page = 0; page < directory.pages.size(); ++page) list(page);
+  }
+  return all;
+}
+
 Result<Selection> parse_region_list(std::string_view text) {
   Selection selection{.kind = Selection::Kind::Ids};
   for (std::string_view piece : split(text, ',')) {
+    auto level = take_level(piece);
+    if (!level) return forward_error(level);
     if (is_name(piece)) {
       if (piece.front() == '=') piece.remove_prefix(1);
       selection.names.emplace_back(piece);
+      if (*level) selection.name_levels.push_back({std::string(piece), **level});
       continue;
     }
     const std::size_t dash = piece.find('-');
@@ -161,9 +231,13 @@ Result<Selection> parse_region_list(std::string_view text) {
     if (!is_number || last < first) {
       return fail(ErrorCode::InvalidArgument, "'" + std::string(piece) +
                                                   "' is not a region, a range or a name; write for instance "
-                                                  "wheel_left,3,5-7");
+                                                  "wheel_left,3,5-7@1");
     }
+    const std::size_t before = selection.ids.size();
     if (auto ok = add_range({first, last}, selection.ids); !ok) return forward_error(ok);
+    if (!*level) continue;
+    for (std::size_t i = before; i < selection.ids.size(); ++i)
+      selection.levels.push_back({selection.ids[i], **level});
   }
   return selection;
 }
@@ -176,7 +250,15 @@ Result<Selection> resolve_names(const Directory& directory, Selection selection)
       if (auto ok = add_range(range, selection.ids); !ok) return forward_error(ok);
     }
   }
+  for (const auto& [name, level] : selection.name_levels) {
+    const NamedRegions* named = directory.find_name(name);
+    if (named == nullptr) return fail(ErrorCode::NotFound, unknown_name(directory, name));
+    for (const RegionRange& range : named->ranges) {
+      for (RegionId id = range.first; id <= range.last; ++id) selection.levels.push_back({id, level});
+    }
+  }
   selection.names.clear();
+  selection.name_levels.clear();
   return selection;
 }
 

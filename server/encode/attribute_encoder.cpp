@@ -10,7 +10,8 @@ namespace selvage {
 namespace {
 
 /// The symbol of a magnitude, and what the next axis's class makes of it.
-std::int32_t encode_magnitude(EntropyEncoder& out, unsigned model, const SizeClass& size, std::uint32_t magnitude) {
+std::int32_t encode_magnitude(EntropyEncoder& out, unsigned model, const SizeClass& size,
+                              std::uint32_t magnitude) {
   const std::uint32_t coarse = magnitude >> size.raw_low_bits, symbol = std::min(coarse, kMagnitudeEscape);
   out.symbol(model, symbol);
   if (symbol == kMagnitudeEscape) out.number(region_model::kExcess, coarse - kMagnitudeEscape);

@@ -64,8 +64,7 @@ void Outbox::push_control(std::vector<std::byte> frame) {
 }
 
 Result<void> Outbox::push_answer(Answer answer) {
-  const auto same_id = [&](const Sending& sending) { return sending.answer.request_id == answer.request_id; };
-  if (std::ranges::any_of(answers_, same_id)) {
+  if (find(answer.request_id) != answers_.end()) {
     return fail(ErrorCode::InvalidArgument,
                 "request id " + std::to_string(answer.request_id) + " is still being answered");
   }
@@ -85,9 +84,18 @@ Result<void> Outbox::push_answer(Answer answer) {
   return {};
 }
 
-bool Outbox::cancel(std::uint32_t request_id) {
-  const auto found = std::ranges::find_if(
+Outbox::Answers::iterator Outbox::find(std::uint32_t request_id) {
+  return std::ranges::find_if(
       answers_, [&](const Sending& sending) { return sending.answer.request_id == request_id; });
+}
+
+void Outbox::reprioritise(std::uint32_t request_id, std::uint8_t urgency) {
+  const auto found = find(request_id);
+  if (found != answers_.end()) found->answer.urgency = urgency;
+}
+
+bool Outbox::cancel(std::uint32_t request_id) {
+  const auto found = find(request_id);
   if (found == answers_.end()) return false;
   queued_parts_ -= found->answer.items.size();
   answers_.erase(found);
@@ -105,13 +113,15 @@ void Outbox::take(Batch& batch) {
   take_control(batch);
   while (!answers_.empty()) {
     const std::size_t before = batch.size_bytes();
-    if (!take_from(answers_.front(), batch)) {
+    const auto next =
+        std::ranges::min_element(answers_, {}, [](const Sending& sending) { return sending.answer.urgency; });
+    if (!take_from(*next, batch)) {
       // Whoever had nothing, for want of credit, keeps the turn: a large chunk is not starved by small ones.
-      if (batch.size_bytes() > before) std::ranges::rotate(answers_, answers_.begin() + 1);
+      if (batch.size_bytes() > before) answers_.splice(answers_.end(), answers_, next);
       return;
     }
-    queued_parts_ -= answers_.front().answer.items.size();
-    answers_.pop_front();
+    queued_parts_ -= next->answer.items.size();
+    answers_.erase(next);
   }
 }
 
@@ -158,7 +168,7 @@ bool Outbox::send_bytes(Sending& sending, std::span<const std::byte> bytes, Batc
 }
 
 bool Outbox::send_manifest(Sending& sending, Batch& batch) {
-  const std::span<const std::byte> bytes = sending.answer.pack->directory_bytes();
+  const auto bytes = sending.answer.pack->directory_bytes().first(sending.answer.manifest->data_size);
   if (!sending.introduced) batch.add(*sending.answer.manifest, sending.answer.request_id, sending.seq++);
   sending.introduced = true;
   if (!send_bytes(sending, bytes, batch)) return false;

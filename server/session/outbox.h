@@ -2,8 +2,8 @@
 //
 // What a session has still to send, and in which order. Control frames go first and come out in the order
 // they went in; answers with data share what is left: each write carries at most one quantum, taken from the
-// answer whose turn it is, and the next write begins with the next answer. So a small request beside a large
-// one waits for a quantum, not for the end, and a cancel acts after one.
+// most urgent answer, and the next write begins with the next of the same urgency. So a small request beside
+// a large one waits for a quantum, not for the end; a cancel or a change of urgency acts after one.
 //
 // Data goes out only against credit. A Batch points into the mapped pack, part bytes are not copied on the
 // way, but for parts so small that a place of their own in the gather list costs more than the copy.
@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <list>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -31,13 +32,15 @@ struct SendItem {
   const PartRef* ref = nullptr;
 };
 
-/// An answer that carries bytes of a pack: its directory, if `manifest` is set, then parts, then RequestEnd.
+/// An answer that carries bytes of a pack: what `manifest` says of its directory, if that is set, then parts,
+/// then RequestEnd.
 struct Answer {
   std::uint32_t request_id = 0;
   std::shared_ptr<const Pack> pack;
   std::optional<ManifestBegin> manifest;
   std::vector<SendItem> items;
-  std::uint32_t held = 0;  ///< parts that the client said it has
+  std::uint32_t held = 0;    ///< parts that the client said it has
+  std::uint8_t urgency = 0;  ///< 0 goes first
 };
 
 /// Frames for one write: small ones gathered in a buffer, part bytes where they lie in their packs.
@@ -95,6 +98,8 @@ class Outbox {
 
   /// Drops what is left of that answer; false if there is none (any more).
   bool cancel(std::uint32_t request_id);
+  /// Changes the urgency of that answer, if it is still here.
+  void reprioritise(std::uint32_t request_id, std::uint8_t urgency);
   void drop_answers() {
     answers_.clear();
     queued_parts_ = 0;
@@ -121,6 +126,9 @@ class Outbox {
     RequestEnd sums;
   };
 
+  using Answers = std::list<Sending>;
+  Answers::iterator find(std::uint32_t request_id);
+
   void take_control(Batch& batch);
   bool take_from(Sending& sending, Batch& batch);
   std::uint64_t chunk(std::uint64_t left, const Batch& batch) const;
@@ -131,7 +139,7 @@ class Outbox {
   const SessionLimits limits_;
   std::deque<std::vector<std::byte>> control_;
   std::size_t control_bytes_ = 0;
-  std::deque<Sending> answers_;  ///< the front one's turn is next
+  Answers answers_;  ///< among those of one urgency, the first one's turn is next
   std::size_t queued_parts_ = 0;
   std::uint64_t credit_ = 0;
 };

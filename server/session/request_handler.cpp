@@ -61,10 +61,14 @@ Models answer_list(const ListModels& request, const std::vector<PackStore::Model
   return page;
 }
 
-Answer answer_open(std::uint32_t request_id, std::shared_ptr<const Pack> pack) {
+Answer answer_open(std::uint32_t request_id, const OpenModel& request, std::shared_ptr<const Pack> pack) {
+  const std::uint64_t whole = pack->directory_bytes().size();
+  const std::uint32_t summary = pack->header().summary_size;
+  const bool is_held = request.held == pack->id();
   Answer answer;
   answer.request_id = request_id;
-  answer.manifest = ManifestBegin{pack->id(), pack->header().summary_size, pack->directory_bytes().size()};
+  answer.manifest =
+      ManifestBegin{pack->id(), summary, whole, is_held ? 0 : (request.summary_only ? summary : whole)};
   answer.pack = std::move(pack);
   return answer;
 }
@@ -74,18 +78,20 @@ Result<Answer> answer_get(std::uint32_t request_id, const GetParts& request, std
   if (request.pack_id && *request.pack_id != pack->id()) {
     return fail(ErrorCode::ModelChanged, "'" + request.model + "' is another pack now; open it again");
   }
-  if (request.selection.ids.size() > limits.ids_per_request) {
-    return fail(ErrorCode::LimitExceeded,
-                "more than " + std::to_string(limits.ids_per_request) + " region ids in one request");
+  if (std::max(request.selection.ids.size(), request.selection.levels.size()) > limits.ids_per_request) {
+    return fail(ErrorCode::LimitExceeded, "more than " + std::to_string(limits.ids_per_request) +
+                                              " region ids or levels in one request");
   }
-  auto parts = select_parts(pack->directory(), request.selection);
-  if (!parts) return forward_error(parts);
+  auto selected = select_parts(pack->directory(), request.selection);
+  if (!selected) return forward_error(selected);
+  const auto parts = with_pages(pack->directory(), std::move(*selected), request.pages);
 
   Answer answer;
   answer.request_id = request_id;
-  answer.items.reserve(parts->size());
+  answer.urgency = request.urgency;
+  answer.items.reserve(parts.size());
   const Held held(request);
-  for (const PartId& id : *parts) {
+  for (const PartId& id : parts) {
     const PartRef& ref = *pack->directory().find(id);
     if (held.whole(ref.hash)) {
       ++answer.held;

@@ -18,10 +18,11 @@ namespace selvage {
 /// One page of the models after `request.after`; small enough for a frame.
 Models answer_list(const ListModels& request, const std::vector<PackStore::Model>& models);
 
-/// The model's directory.
-Answer answer_open(std::uint32_t request_id, std::shared_ptr<const Pack> pack);
+/// The model's directory, or as much of it as is asked for.
+Answer answer_open(std::uint32_t request_id, const OpenModel& request, std::shared_ptr<const Pack> pack);
 
-/// The parts that a selection means, without those that the client has, in the order of select_parts.
+/// The parts that a selection means, without those that the client has, in the order of select_parts and
+/// with_pages.
 /// ModelChanged if the request names another pack; NotFound names a region that is not there; LimitExceeded.
 Result<Answer> answer_get(std::uint32_t request_id, const GetParts& request, std::shared_ptr<const Pack> pack,
                           const SessionLimits& limits);

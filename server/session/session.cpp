@@ -160,8 +160,12 @@ asio::awaitable<Result<void>> Session::handle(Frame frame) {
       send(Pong{}, id);
       co_return Result<void>();
     }
-    case FrameType::Reprioritise:
+    case FrameType::Reprioritise: {
+      Result<Reprioritise> request = parse<Reprioritise>(frame.payload);
+      if (!request) co_return forward_error(request);
+      outbox_.reprioritise(id, request->urgency);
       co_return Result<void>();
+    }
     default:
       co_return fail(ErrorCode::Protocol,
                      "a client does not send " + std::string(to_string(frame.header.type)) + " here");
@@ -202,9 +206,9 @@ asio::awaitable<Result<void>> Session::list(std::uint32_t request_id, ListModels
 }
 
 asio::awaitable<Result<void>> Session::open(std::uint32_t request_id, OpenModel request) {
-  Result<std::shared_ptr<const Pack>> pack = co_await open_pack(std::move(request.name));
+  Result<std::shared_ptr<const Pack>> pack = co_await open_pack(request.name);
   if (pack) {
-    send_answer(answer_open(request_id, std::move(*pack)));
+    send_answer(answer_open(request_id, request, std::move(*pack)));
   } else {
     send_error(pack.error(), request_id);
   }

@@ -14,23 +14,56 @@ using namespace selvage;
 
 void parse_any(const Frame& frame) {
   switch (frame.header.type) {
-    case FrameType::Hello: (void)parse<Hello>(frame.payload); break;
-    case FrameType::HelloAck: (void)parse<HelloAck>(frame.payload); break;
-    case FrameType::ListModels: (void)parse<ListModels>(frame.payload); break;
-    case FrameType::Models: (void)parse<Models>(frame.payload); break;
-    case FrameType::OpenModel: (void)parse<OpenModel>(frame.payload); break;
-    case FrameType::ManifestBegin: (void)parse<ManifestBegin>(frame.payload); break;
-    case FrameType::GetParts: (void)parse<GetParts>(frame.payload); break;
-    case FrameType::PartBegin: (void)parse<PartBegin>(frame.payload); break;
-    case FrameType::RequestEnd: (void)parse<RequestEnd>(frame.payload); break;
-    case FrameType::Credit: (void)parse<Credit>(frame.payload); break;
-    case FrameType::Error: (void)parse<ErrorMessage>(frame.payload); break;
-    case FrameType::GoAway: (void)parse<GoAway>(frame.payload); break;
-    case FrameType::Cancel: (void)parse<Cancel>(frame.payload); break;
-    case FrameType::Ping: (void)parse<Ping>(frame.payload); break;
-    case FrameType::Pong: (void)parse<Pong>(frame.payload); break;
+    case FrameType::Hello:
+      (void)parse<Hello>(frame.payload);
+      break;
+    case FrameType::HelloAck:
+      (void)parse<HelloAck>(frame.payload);
+      break;
+    case FrameType::ListModels:
+      (void)parse<ListModels>(frame.payload);
+      break;
+    case FrameType::Models:
+      (void)parse<Models>(frame.payload);
+      break;
+    case FrameType::OpenModel:
+      (void)parse<OpenModel>(frame.payload);
+      break;
+    case FrameType::ManifestBegin:
+      (void)parse<ManifestBegin>(frame.payload);
+      break;
+    case FrameType::GetParts:
+      (void)parse<GetParts>(frame.payload);
+      break;
+    case FrameType::PartBegin:
+      (void)parse<PartBegin>(frame.payload);
+      break;
+    case FrameType::RequestEnd:
+      (void)parse<RequestEnd>(frame.payload);
+      break;
+    case FrameType::Credit:
+      (void)parse<Credit>(frame.payload);
+      break;
+    case FrameType::Error:
+      (void)parse<ErrorMessage>(frame.payload);
+      break;
+    case FrameType::GoAway:
+      (void)parse<GoAway>(frame.payload);
+      break;
+    case FrameType::Cancel:
+      (void)parse<Cancel>(frame.payload);
+      break;
+    case FrameType::Ping:
+      (void)parse<Ping>(frame.payload);
+      break;
+    case FrameType::Pong:
+      (void)parse<Pong>(frame.payload);
+      break;
+    case FrameType::Reprioritise:
+      (void)parse<Reprioritise>(frame.payload);
+      break;
     case FrameType::Data:
-    case FrameType::Reprioritise: break;
+      break;
   }
 }
 

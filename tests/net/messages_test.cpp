@@ -26,8 +26,9 @@ Result<Message> round_trip(const Message& message) {
 
 template <class Message>
 class EveryMessage : public ::testing::Test {};
-using AllMessages = ::testing::Types<Hello, HelloAck, ListModels, Models, OpenModel, ManifestBegin, GetParts,
-                                     PartBegin, RequestEnd, Credit, ErrorMessage, GoAway, Cancel, Ping, Pong>;
+using AllMessages =
+    ::testing::Types<Hello, HelloAck, ListModels, Models, OpenModel, ManifestBegin, GetParts, Reprioritise,
+                     PartBegin, RequestEnd, Credit, ErrorMessage, GoAway, Cancel, Ping, Pong>;
 TYPED_TEST_SUITE(EveryMessage, AllMessages);
 
 TYPED_TEST(EveryMessage, ComesBackAsItWent) {
@@ -74,6 +75,7 @@ TEST(Messages, GetPartsKeepsEverySelection) {
   EXPECT_EQ(back->pack_id, get.pack_id);
   EXPECT_EQ(back->selection.ids, get.selection.ids);
   EXPECT_EQ(back->selection.level, get.selection.level);
+  EXPECT_EQ(back->selection.levels, get.selection.levels);
   EXPECT_EQ(back->selection.joins, get.selection.joins);
   EXPECT_EQ(back->have, get.have);
   ASSERT_EQ(back->partial.size(), 1u);
@@ -132,7 +134,10 @@ TEST(Messages, RefusesFieldsThatCannotBe) {
   expect_refused<ManifestBegin>([](ManifestBegin& m) { m.directory_size = m.summary_size = 0; }, "sizes");
   expect_refused<GetParts>([](GetParts& m) { m.selection.joins = static_cast<Joins>(3); }, "joins");
   expect_refused<GetParts>([](GetParts& m) { m.urgency = kMaxUrgency + 1; }, "urgency");
-  expect_refused<PartBegin>([](PartBegin& m) { m.id.kind = static_cast<PartKind>(2); }, "kind");
+  expect_refused<PartBegin>([](PartBegin& m) { m.id.kind = static_cast<PartKind>(3); }, "kind");
+  expect_refused<GetParts>([](GetParts& m) { m.pages = static_cast<Pages>(3); }, "pages");
+  expect_refused<ManifestBegin>([](ManifestBegin& m) { m.data_size = 401; }, "data_size");
+  expect_refused<Reprioritise>([](Reprioritise& m) { m.urgency = kMaxUrgency + 1; }, "urgency");
   expect_refused<PartBegin>([](PartBegin& m) { m.offset = m.size; }, "size");
   expect_refused<Credit>([](Credit& m) { m.bytes = 0; }, "bytes");
 }

@@ -37,22 +37,31 @@ inline Models sample() {
 }
 template <>
 inline OpenModel sample() {
-  return {"bunny"};
+  return {"bunny", true, sample_hash(8)};
 }
 template <>
 inline ManifestBegin sample() {
-  return {sample_hash(2), 400, 12'345};
+  return {sample_hash(2), 400, 12'345, 400};
 }
 template <>
 inline GetParts sample() {
   GetParts get;
   get.model = "bunny";
   get.pack_id = sample_hash(3);
-  get.selection = {.kind = Selection::Kind::Ids, .ids = {3, 5, 70'000}, .joins = Joins::All, .level = 2};
+  get.selection = {.kind = Selection::Kind::Ids,
+                   .ids = {3, 5, 70'000},
+                   .joins = Joins::All,
+                   .level = 2,
+                   .levels = {{5, 0}, {3, 255}}};
   get.have = {sample_hash(4), sample_hash(5)};
   get.partial = {{sample_hash(6), 4096}};
   get.urgency = 1;
+  get.pages = Pages::All;
   return get;
+}
+template <>
+inline Reprioritise sample() {
+  return {6};
 }
 template <>
 inline PartBegin sample() {

@@ -57,6 +57,38 @@ TEST(Selection, NamesARegionThatIsNotThere) {
   }
 }
 
+PartId page(std::uint32_t number) { return {PartKind::Page, number, 0}; }
+
+TEST(Selection, PagesComeBeforeWhatTheyListAndWhatItsBundleTouches) {
+  const auto pack = Pack::from_bytes(fake_pack_bytes(600)).value();
+  const auto with = [&](Pages pages) {
+    return with_pages(pack->directory(), {{PartKind::Region, 10, 0}, bundle(512)}, pages);
+  };
+  EXPECT_EQ(with(Pages::None), (std::vector<PartId>{{PartKind::Region, 10, 0}, bundle(512)}));
+  const std::vector<PartId> needed{page(0), {PartKind::Region, 10, 0}, page(2), page(1), bundle(512)};
+  EXPECT_EQ(with(Pages::Needed), needed);
+  EXPECT_EQ(with(Pages::All), needed);
+  EXPECT_EQ(with_pages(pack->directory(), {}, Pages::All), (std::vector<PartId>{page(0), page(1), page(2)}));
+}
+
+TEST(Selection, NeedsThePagesOfWhatIsSelected) {
+  const auto pack = Pack::from_bytes(fake_pack_bytes(600)).value();
+  const auto bytes = pack->directory_bytes();
+  Directory directory = parse_summary(bytes.first(pack->header().summary_size), bytes.size()).value();
+  const Selection some{.kind = Selection::Kind::Ids, .ids = {300}, .joins = Joins::None};
+  const Selection box{.kind = Selection::Kind::Box, .box = {{300, 0, 0}, {301, 1, 1}}, .joins = Joins::None};
+  for (const Selection& selection : {some, box}) {
+    const auto early = select_regions(directory, selection);
+    ASSERT_FALSE(early);
+    EXPECT_EQ(early.error().code, ErrorCode::InvalidArgument);
+    EXPECT_NE(early.error().message.find("page 1 "), std::string::npos) << early.error().message;
+  }
+  ASSERT_TRUE(read_page(directory, 1, pack->part(pack->directory().pages[1].part)));
+  EXPECT_EQ(select_regions(directory, some).value(), (std::vector<RegionId>{300}));
+  EXPECT_EQ(select_regions(directory, box).value(), (std::vector<RegionId>{299, 300, 301}));
+  EXPECT_FALSE(select_regions(directory, {}));
+}
+
 TEST(Selection, ParsesListsAndBoxes) {
   EXPECT_EQ(parse_region_list("3,5-7")->ids, (std::vector<RegionId>{3, 5, 6, 7}));
   EXPECT_EQ(parse_region_list("4294967295")->ids, (std::vector<RegionId>{4294967295u}));
@@ -82,6 +114,51 @@ TEST(Selection, ResolvesNamesToTheirRegions) {
   ASSERT_FALSE(missing);
   EXPECT_EQ(missing.error().code, ErrorCode::NotFound);
   EXPECT_NE(missing.error().message.find("'c'; there are a, b"), std::string::npos);
+}
+
+/// Regions of row_of_five with levels: 0, 1 and, the same as 1, 2; region 5 has 0 alone.
+Directory row_with_levels() {
+  Directory directory = row_of_five();
+  for (RegionId id = 1; id < 5; ++id) {
+    auto& levels = directory.regions[id].levels;
+    levels.push_back({.part = {.size = 7}, .vertices = 4, .triangles = 2, .deviation = 1, .dropped_bits = 2});
+    levels.push_back(levels.back());
+    levels.back().is_repeat = true;
+  }
+  return directory;
+}
+
+std::vector<int> levels_in(const Directory& directory, const Selection& selection) {
+  std::vector<int> levels;
+  const auto parts = select_parts(directory, selection).value();
+  for (const PartId& part : parts) {
+    if (part.kind == PartKind::Region) levels.push_back(part.level);
+  }
+  return levels;
+}
+
+TEST(Selection, GivesEveryRegionItsLevel) {
+  const Directory directory = row_with_levels();
+  EXPECT_EQ(levels_in(directory, {.level = 1}), (std::vector<int>{1, 1, 1, 1, 0}));
+  EXPECT_EQ(levels_in(directory, {.level = 2}), (std::vector<int>{1, 1, 1, 1, 0}));
+  Selection mixed{.level = 1};
+  mixed.levels = {{2, 1}, {2, 0}, {3, 0}, {3, 2}, {4, 9}, {77, 0}};
+  EXPECT_EQ(levels_in(directory, mixed), (std::vector<int>{1, 0, 0, 1, 0}));
+}
+
+TEST(Selection, ParsesLevels) {
+  Directory directory = row_with_levels();
+  directory.names = {{"a", {{1, 2}}}, {"b@1", {{4, 4}}}};
+  const auto levels = [&](const char* text, std::uint8_t level) {
+    Selection selection = parse_region_list(text).value();
+    selection.level = level;
+    return levels_in(directory, resolve_names(directory, selection).value());
+  };
+  EXPECT_EQ(levels("3@0,1-2@1", 0), (std::vector<int>{1, 1, 0}));
+  EXPECT_EQ(levels("3,1-2@0", 1), (std::vector<int>{0, 0, 1}));
+  EXPECT_EQ(levels("a@1,b@1@0,2@0", 1), (std::vector<int>{1, 0, 0}));
+  EXPECT_EQ(parse_region_list("a@b").value().names, (std::vector<std::string>{"a@b"}));
+  for (const char* bad : {"1@256", "@1", "1-@1", "a@999"}) EXPECT_FALSE(parse_region_list(bad)) << bad;
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ class LyingServer : public ::testing::Test {
     const auto open = co_await server.receive();
     EXPECT_TRUE(open && open->is(FrameType::OpenModel));
     const auto directory = pack.directory_bytes();
-    ManifestBegin begin{pack.id(), pack.header().summary_size, directory.size()};
+    ManifestBegin begin{pack.id(), pack.header().summary_size, directory.size(), directory.size()};
     co_await server.send(begin, open->header.request_id, 0);
     Bytes bytes(directory.begin(), directory.end());
     co_await server.send_data(open->header.request_id, 1, std::move(bytes), true);

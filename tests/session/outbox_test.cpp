@@ -137,6 +137,44 @@ TEST(Outbox, RequestsTakeTurns) {
   EXPECT_NEAR(static_cast<double>(data[1]), static_cast<double>(data[2]), 2 * Outbox::kQuantum);
 }
 
+/// Which requests the next batches carry data of, in order.
+std::vector<std::uint32_t> turns(Outbox& outbox, int batches) {
+  std::vector<std::uint32_t> ids;
+  Batch batch;
+  for (int i = 0; i < batches; ++i) {
+    outbox.take(batch);
+    for (const FrameHeader& header : headers(batch)) {
+      if (header.type == FrameType::Data && (ids.empty() || ids.back() != header.request_id))
+        ids.push_back(header.request_id);
+    }
+  }
+  return ids;
+}
+
+TEST(Outbox, TheMostUrgentGoesFirst) {
+  Outbox outbox({});
+  for (std::uint32_t id = 1; id <= 3; ++id) {
+    Answer answer = get_all(id, fake_pack(10, 100'000));
+    answer.urgency = id == 2 ? 1 : 5;
+    ASSERT_TRUE(outbox.push_answer(std::move(answer)));
+  }
+  ASSERT_TRUE(outbox.grant(kPlenty));
+  EXPECT_EQ(turns(outbox, 5), (std::vector<std::uint32_t>{2}));
+}
+
+TEST(Outbox, AChangeOfUrgencyActsWithTheNextBatch) {
+  Outbox outbox({});
+  ASSERT_TRUE(outbox.push_answer(get_all(1, fake_pack(10, 1'000'000))));
+  ASSERT_TRUE(outbox.push_answer(get_all(2, fake_pack(10, 1'000'000))));
+  ASSERT_TRUE(outbox.grant(kPlenty));
+  EXPECT_EQ(turns(outbox, 4), (std::vector<std::uint32_t>{1, 2, 1, 2}));
+  outbox.reprioritise(2, 0);
+  outbox.reprioritise(99, 0);
+  EXPECT_EQ(turns(outbox, 4), (std::vector<std::uint32_t>{2}));
+  outbox.reprioritise(2, kMaxUrgency);
+  EXPECT_EQ(turns(outbox, 4), (std::vector<std::uint32_t>{1}));
+}
+
 TEST(Outbox, CancelActsAfterOneBatch) {
   Outbox outbox({});
   const auto pack = fake_pack(100, 100'000);
@@ -202,6 +240,38 @@ TEST(RequestHandler, ResumesWhatTheClientHasInPart) {
 
   request.partial[0].offset = 50'000;  // no help
   EXPECT_EQ(answer_get(1, request, pack, {})->items[0].offset, 0u);
+}
+
+TEST(RequestHandler, OpensTheWholeDirectoryItsSummaryOrNothing) {
+  const auto pack = fake_pack(1000, 10);
+  const auto sent = [&](const OpenModel& request) {
+    Outbox outbox({});
+    EXPECT_TRUE(outbox.push_answer(answer_open(1, request, pack)));
+    EXPECT_TRUE(outbox.grant(kPlenty));
+    return drain(outbox).data;
+  };
+  EXPECT_EQ(sent({"row"}), pack->directory_bytes().size());
+  EXPECT_EQ(sent({"row", true}), pack->header().summary_size);
+  EXPECT_EQ(sent({"row", false, Hash{}}), pack->directory_bytes().size());
+  EXPECT_EQ(sent({"row", true, pack->id()}), 0u);
+}
+
+TEST(RequestHandler, SendsTheDirectorysPagesThatAClientLacks) {
+  const auto pack = fake_pack(1000, 10);
+  GetParts request;
+  request.model = "row";
+  request.selection = {.kind = Selection::Kind::Ids, .ids = {300, 301}};
+  request.pages = Pages::Needed;
+  const auto first = answer_get(1, request, pack, {});
+  ASSERT_TRUE(first);
+  ASSERT_EQ(first->items.size(), 4u);
+  EXPECT_EQ(first->items[0].id, (PartId{PartKind::Page, 1, 0}));
+  const PartRef& page = pack->directory().pages[1].part;
+  EXPECT_EQ(hash_of(pack->part(page)), page.hash);
+  EXPECT_EQ(first->items[0].ref->hash, page.hash);
+
+  request.have = {page.hash};
+  EXPECT_EQ(answer_get(1, request, pack, {})->items.size(), 3u);
 }
 
 TEST(RequestHandler, RefusesOtherPacksUnknownRegionsAndTooManyIds) {

@@ -92,6 +92,68 @@ TEST(ServerSession, AnswersHelloOpenAndGetInOneFlight) {
   EXPECT_FALSE(harness.session().reason());
 }
 
+TEST(ServerSession, AColdClientGetsSummaryPageAndRegionInOneFlight) {
+  SessionHarness harness;
+  harness.folder().put("row.selvage", fake_pack_bytes(1000));
+  RawPeer peer(harness.connect());
+  const auto work = [](RawPeer& client) -> Work {
+    co_await client.send(hello_with(1 << 20));
+    OpenModel open{"row", true};
+    co_await client.send(std::move(open), 1);
+    GetParts get = get_all();
+    get.selection.kind = Selection::Kind::Ids;
+    get.selection.ids.push_back(700);
+    get.pages = Pages::Needed;
+    co_await client.send(get, 2);
+    std::vector<FrameType> types;
+    std::vector<RawPeer::Received> frames;
+    for (int i = 0; i < 9; ++i) {
+      const auto frame = co_await client.receive();
+      types.push_back(frame->header.type);
+      frames.push_back(*frame);
+    }
+    const std::vector<FrameType> expected = [] {
+      using enum FrameType;
+      return std::vector{HelloAck, ManifestBegin, Data, RequestEnd, PartBegin,
+                         Data,     PartBegin,     Data, RequestEnd};
+    }();
+    EXPECT_EQ(types, expected);
+    const auto begin = frames[1].as<ManifestBegin>();
+    Directory directory = parse_summary(frames[2].payload, begin.directory_size).value();
+    const PartId page = frames[4].as<PartBegin>().id;
+    EXPECT_EQ(page.kind, PartKind::Page);
+    EXPECT_TRUE(read_page(directory, page.region, frames[5].payload));
+    EXPECT_TRUE(check_part(directory.regions[700].levels[0].part, frames[7].payload));
+    client.close();
+  };
+  harness.run(work(peer));
+}
+
+TEST(ServerSession, ReprioritiseOvertakesAndIsIgnoredWhenLate) {
+  SessionHarness harness;
+  harness.folder().put("row.selvage", fake_pack_bytes(3, 1'000'000));
+  RawPeer peer(harness.connect());
+  const auto work = [](RawPeer& client) -> Work {
+    co_await greet(client, kMinInitialCredit);
+    co_await client.send(get_all(), 1);
+    co_await client.send(get_all(), 2);
+    Reprioritise first{0};
+    co_await client.send(first, 2);
+    co_await client.send(first, 99);
+    co_await client.send(Ping{}, 3);
+    std::optional<RawPeer::Received> frame = co_await client.receive_control();
+    while (frame && !frame->is(FrameType::Pong)) frame = co_await client.receive_control();
+    Credit credit{8'000'000};
+    co_await client.send(credit);
+    // What is left of the first comes after all of the second.
+    frame = co_await client.receive_control();
+    while (frame && !frame->is(FrameType::RequestEnd)) frame = co_await client.receive_control();
+    EXPECT_EQ(frame->header.request_id, 2u);
+    client.close();
+  };
+  harness.run(work(peer));
+}
+
 TEST(ServerSession, AnyFailureButBrokenProtocolEndsItsRequestAlone) {
   SessionHarness harness({.requests = 2, .ids_per_request = 3});
   harness.folder().put("row.selvage", fake_pack_bytes(10, 100'000));
