@@ -23,7 +23,7 @@ Result<void> PartCollector::add_region(RegionId region, std::uint8_t level,
   auto mesh = decode_region(bytes, decode_limits(directory_, region, level));
   if (!mesh) return forward_error(mesh);
   const std::scoped_lock lock(mutex_);
-  return stitcher_.add_region(region, std::move(*mesh));
+  return stitcher_.add_region(region, std::move(*mesh), level);
 }
 
 Result<void> PartCollector::add_bundle(RegionId region, std::span<const std::byte> bytes) {
@@ -37,6 +37,16 @@ Result<void> PartCollector::add_bundle(RegionId region, std::span<const std::byt
   return stitcher_.add_bundle(region, std::move(*triangles));
 }
 
+void PartCollector::remove_region(RegionId region) {
+  const std::scoped_lock lock(mutex_);
+  stitcher_.remove_region(region);
+}
+
+StitchUpdate PartCollector::take_update() {
+  const std::scoped_lock lock(mutex_);
+  return stitcher_.take_update();
+}
+
 StitchedMesh PartCollector::mesh() const {
   const std::scoped_lock lock(mutex_);
   return stitcher_.mesh();
@@ -44,7 +54,12 @@ StitchedMesh PartCollector::mesh() const {
 
 std::size_t PartCollector::region_count() const {
   const std::scoped_lock lock(mutex_);
-  return stitcher_.regions().size();
+  return stitcher_.region_count();
+}
+
+std::optional<std::uint8_t> PartCollector::level_of(RegionId region) const {
+  const std::scoped_lock lock(mutex_);
+  return stitcher_.level_of(region);
 }
 
 }  // namespace selvage
