@@ -72,10 +72,10 @@ GeometryWalk::GeometryWalk(CornerTable table, std::uint32_t most_vertices, std::
       most_vertices_(most_vertices),
       corners_left_(table_.corner_count()),
       states_(table_.vertex_count(), kUnseen),
-      well_(std::make_unique_for_overwrite<CornerId[]>(table_.vertex_count() + 1)),
-      once_(std::make_unique_for_overwrite<CornerId[]>(table_.vertex_count() + 1)),
+      well_(new CornerId[table_.vertex_count() + 1]),
+      once_(new CornerId[table_.vertex_count() + 1]),
       corner_of_visited_(most_vertices),
-      known_(std::make_unique_for_overwrite<Known[]>(most_vertices)) {
+      known_(new Known[most_vertices]) {
   for (VertexId& v : table_.vertex_of_corner) v |= kUnvisited;
   // Until residuals are known: about an edge's length, taking the region for a square.
   const int half_octaves = std::bit_width(table_.triangle_count());
