@@ -20,27 +20,18 @@ using boost::system::error_code;
 /// Bytes handed to the kernel but not yet sent: enough to keep a fast link busy between two writes.
 constexpr int kNotSentLowWater = 128 << 10;
 
-tl::unexpected<Error> io_failure(const error_code& error) {
-  if (error == asio::error::operation_aborted) return fail(ErrorCode::Cancelled, "the connection was closed");
-  return fail(ErrorCode::Io, "the connection broke: " + error.message());
-}
-
 class TcpStream final : public ByteStream {
  public:
   explicit TcpStream(tcp::socket socket) : socket_(std::move(socket)) {
-    error_code ignored;
-    socket_.set_option(tcp::no_delay(true), ignored);
-    using NotSentLowWater = asio::detail::socket_option::integer<IPPROTO_TCP, TCP_NOTSENT_LOWAT>;
-    socket_.set_option(NotSentLowWater(kNotSentLowWater), ignored);
-    const tcp::endpoint remote = socket_.remote_endpoint(ignored);
-    peer_ = HostPort{remote.address().to_string(), remote.port()}.to_string();
+    tune_for_sessions(socket_);
+    peer_ = peer_of(socket_);
   }
 
   asio::awaitable<Result<std::size_t>> read_some(std::span<std::byte> into) override {
     const asio::mutable_buffer room(into.data(), into.size());
     auto [error, count] = co_await socket_.async_read_some(room, kAwait);
     if (error == asio::error::eof) co_return std::size_t{0};
-    if (error) co_return io_failure(error);
+    if (error) co_return connection_failure(error);
     co_return count;
   }
 
@@ -48,7 +39,7 @@ class TcpStream final : public ByteStream {
     buffers_.clear();
     for (const auto& piece : pieces) buffers_.emplace_back(piece.data(), piece.size());
     auto [error, count] = co_await asio::async_write(socket_, buffers_, kAwait);
-    if (error) co_return io_failure(error);
+    if (error) co_return connection_failure(error);
     co_return Result<void>();
   }
 
@@ -76,17 +67,18 @@ asio::awaitable<Result<Endpoints>> resolve(std::string host, std::uint16_t port)
   co_return endpoints;
 }
 
-asio::awaitable<Result<std::unique_ptr<ByteStream>>> resolve_and_connect(std::string host,
-                                                                         std::uint16_t port) {
+/// By pointer: what `||` chooses from must be default-constructible, which a socket is not.
+asio::awaitable<Result<std::unique_ptr<tcp::socket>>> resolve_and_connect(std::string host,
+                                                                          std::uint16_t port) {
   Result<Endpoints> endpoints = co_await resolve(host, port);
   if (!endpoints) co_return forward_error(endpoints);
-  tcp::socket socket(co_await asio::this_coro::executor);
-  auto [error, endpoint] = co_await asio::async_connect(socket, *endpoints, kAwait);
+  auto socket = std::make_unique<tcp::socket>(co_await asio::this_coro::executor);
+  auto [error, endpoint] = co_await asio::async_connect(*socket, *endpoints, kAwait);
   if (error) {
     co_return fail(ErrorCode::Unavailable,
                    "cannot connect to " + HostPort{host, port}.to_string() + ": " + error.message());
   }
-  co_return make_tcp_stream(std::move(socket));
+  co_return socket;
 }
 
 asio::awaitable<void> pause(std::chrono::steady_clock::duration duration) {
@@ -96,12 +88,30 @@ asio::awaitable<void> pause(std::chrono::steady_clock::duration duration) {
 
 }  // namespace
 
+void tune_for_sessions(tcp::socket& socket) {
+  error_code ignored;
+  socket.set_option(tcp::no_delay(true), ignored);
+  using NotSentLowWater = asio::detail::socket_option::integer<IPPROTO_TCP, TCP_NOTSENT_LOWAT>;
+  socket.set_option(NotSentLowWater(kNotSentLowWater), ignored);
+}
+
+std::string peer_of(const tcp::socket& socket) {
+  error_code ignored;
+  const tcp::endpoint remote = socket.remote_endpoint(ignored);
+  return HostPort{remote.address().to_string(), remote.port()}.to_string();
+}
+
+tl::unexpected<Error> connection_failure(const error_code& error) {
+  if (error == asio::error::operation_aborted) return fail(ErrorCode::Cancelled, "the connection was closed");
+  return fail(ErrorCode::Io, "the connection broke: " + error.message());
+}
+
 std::unique_ptr<ByteStream> make_tcp_stream(tcp::socket socket) {
   return std::make_unique<TcpStream>(std::move(socket));
 }
 
-asio::awaitable<Result<std::unique_ptr<ByteStream>>> connect_tcp(
-    std::string host, std::uint16_t port, std::chrono::steady_clock::duration timeout) {
+asio::awaitable<Result<tcp::socket>> connect_socket(std::string host, std::uint16_t port,
+                                                    std::chrono::steady_clock::duration timeout) {
   using namespace asio::experimental::awaitable_operators;
   auto connecting = resolve_and_connect(host, port);
   auto timer = pause(timeout);
@@ -109,7 +119,16 @@ asio::awaitable<Result<std::unique_ptr<ByteStream>>> connect_tcp(
   if (first.index() == 1) {
     co_return fail(ErrorCode::Timeout, "no answer from " + HostPort{host, port}.to_string());
   }
-  co_return std::move(std::get<0>(first));
+  Result<std::unique_ptr<tcp::socket>> socket = std::move(std::get<0>(first));
+  if (!socket) co_return forward_error(socket);
+  co_return std::move(**socket);
+}
+
+asio::awaitable<Result<std::unique_ptr<ByteStream>>> connect_tcp(
+    std::string host, std::uint16_t port, std::chrono::steady_clock::duration timeout) {
+  Result<tcp::socket> socket = co_await connect_socket(std::move(host), port, timeout);
+  if (!socket) co_return forward_error(socket);
+  co_return make_tcp_stream(std::move(*socket));
 }
 
 std::string HostPort::to_string() const {
