@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "client/app/level_pictures.h"
 #include "client/app/model_source.h"
 #include "common/base/progress_line.h"
 #include "common/render/palette.h"
@@ -59,6 +60,20 @@ std::vector<Panel> draw_arrival(const FetchedModel& model, const DrawCommand& co
   return panels;
 }
 
+Result<std::vector<Panel>> draw_all_levels(const Directory& directory, const DrawCommand& command) {
+  const auto load = [&](const Selection& selection) -> Result<StitchedMesh> {
+    auto model = fetch(command.source, {selection, 0}, [](std::uint32_t, std::uint32_t, std::uint64_t) {});
+    if (!model) return forward_error(model);
+    return std::move(model->mesh);
+  };
+  return draw_levels(directory, load, command.up, command.size);
+}
+
+Result<std::vector<Panel>> draw(const FetchedModel& model, const DrawCommand& command) {
+  if (command.levels) return draw_all_levels(model.directory, command);
+  return command.steps > 0 ? draw_arrival(model, command) : draw_sides(model, command);
+}
+
 }  // namespace
 
 Result<void> run(const DrawCommand& command) {
@@ -73,11 +88,11 @@ Result<void> run(const DrawCommand& command) {
                      });
   if (!model) return forward_error(model);
   line.show("drawing");
-  const std::vector<Panel> panels =
-      command.steps > 0 ? draw_arrival(*model, command) : draw_sides(*model, command);
+  auto panels = draw(*model, command);
+  if (!panels) return forward_error(panels);
   const Image sheet =
-      make_sheet(panels, {.title = fmt::format("{}: {} regions, {} triangles", model->directory.name,
-                                               model->regions, model->mesh.soup.triangles.size())});
+      make_sheet(*panels, {.title = fmt::format("{}: {} regions, {} triangles", model->directory.name,
+                                                model->regions, model->mesh.soup.triangles.size())});
   line.wipe();
   if (auto ok = write_png(command.output, sheet); !ok) return ok;
   fmt::print("{}: {} x {} pixels\n", command.output.string(), sheet.width, sheet.height);
