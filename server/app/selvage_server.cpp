@@ -74,6 +74,10 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--max-requests", session.requests, "requests in flight for each client")
       ->capture_default_str()
       ->group("Limits");
+  app.add_option("--max-rate", session.bytes_per_second, "bytes a second for each client; 0: no limit")
+      ->capture_default_str()
+      ->type_name("BYTES")
+      ->group("Limits");
   add_seconds(app, "--handshake-timeout", session.handshake_timeout, "for a client to say hello");
   add_seconds(app, "--idle-timeout", session.idle_timeout, "for a client that says nothing");
   add_seconds(app, "--write-timeout", session.write_timeout,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "server/session/listener.h"
 
+#include <csignal>
+
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/experimental/awaitable_operators.hpp>
 #include <boost/asio/post.hpp>
@@ -58,6 +60,7 @@ Listener::Listener(asio::io_context& io, PackStore& store, asio::any_io_executor
 Result<std::unique_ptr<Listener>> Listener::bind(asio::io_context& io, const HostPort& address,
                                                  PackStore& store, asio::any_io_executor workers,
                                                  const ServerLimits& limits) {
+  std::signal(SIGPIPE, SIG_IGN);  // what is sent from files has no other way to say that the client has gone
   error_code error;
   tcp::resolver resolver(io);
   const auto found =
