@@ -8,8 +8,9 @@
 //   simplify_bench --only md,meshopt MODEL...
 //   simplify_bench --table31 horse.ply bunny.ply dodge.ply spider.ply cow.obj beethoven.ply
 //   simplify_bench --special                     (Fig. 3.17 and 3.18: a lamp with an open shade, a box with a
-//   handle) simplify_bench --curve bunny.ply > fig316.tsv      (dissertation Fig. 3.16: error over
-//   resolution)
+//                                                 handle)
+//   simplify_bench --curve bunny.ply --plot fig316.png > fig316.tsv
+//                                                (dissertation Fig. 3.16: error over resolution)
 //
 // CPU times are the least of three runs; memory is what the heap holds at most beyond the input. Distances
 // are two-sided, in % of the diagonal (metro.h). "x md" is md's figure over the other's, its geometric mean
@@ -21,9 +22,11 @@
 #include <string>
 #include <vector>
 
+#include "bench/simplify/error_plot.h"
 #include "bench/simplify/metro.h"
 #include "bench/simplify/peers.h"
 #include "common/mesh_io/read_mesh.h"
+#include "common/render/png.h"
 #include "server/ingest/repair.h"
 #include "server/ingest/spatial_order.h"
 #include "tests/simplify/simplify_support.h"
@@ -34,7 +37,7 @@ namespace {
 struct Command {
   std::vector<double> ratios;
   std::vector<std::string> models;
-  std::string only;
+  std::string only, plot;
   bool table31 = false, curve = false, special = false;
 };
 
@@ -161,19 +164,29 @@ void print_table31(const std::vector<BenchMesh>& meshes) {
   }
 }
 
-void print_curve(const Command& command, const BenchMesh& mesh) {
+bool print_curve(const Command& command, const BenchMesh& mesh) {
   const std::vector<Simplifier> simplifiers = chosen(command);
+  const std::vector<double> percents = {80, 60, 40, 20, 10, 5, 2, 1};
+  std::vector<ErrorCurve> curves;
   std::printf("percent");
-  for (const Simplifier& simplifier : simplifiers) std::printf("\t%s", simplifier.name.c_str());
+  for (const Simplifier& simplifier : simplifiers) {
+    std::printf("\t%s", simplifier.name.c_str());
+    curves.push_back({simplifier.name, {}});
+  }
   std::printf("\n");
-  for (const double percent : {80.0, 60.0, 40.0, 20.0, 10.0, 5.0, 2.0, 1.0}) {
+  for (const double percent : percents) {
     std::printf("%g", percent);
-    for (const Simplifier& simplifier : simplifiers) {
-      std::printf("\t%.4f", measure(simplifier, mesh, percent / 100, 1).hausdorff);
+    for (std::size_t i = 0; i < simplifiers.size(); ++i) {
+      curves[i].error.push_back(measure(simplifiers[i], mesh, percent / 100, 1).hausdorff);
+      std::printf("\t%.4f", curves[i].error.back());
     }
     std::printf("\n");
     std::fflush(stdout);
   }
+  if (command.plot.empty()) return true;
+  const auto written = write_png(command.plot, plot_errors(mesh.name, percents, curves));
+  if (!written) std::fprintf(stderr, "%s\n", written.error().to_string().c_str());
+  return written.has_value();
 }
 
 /// What each makes of shapes with a thin handle and with an open sheet at a thirtieth of the triangles.
@@ -207,7 +220,9 @@ int run(const Command& command) {
   }
   if (command.table31) return print_table31(meshes), 0;
   if (command.curve) {
-    for (const BenchMesh& mesh : meshes) print_curve(command, mesh);
+    for (const BenchMesh& mesh : meshes) {
+      if (!print_curve(command, mesh)) return 1;
+    }
     return 0;
   }
   for (const double ratio : command.ratios) compare(command, meshes, ratio);
@@ -225,6 +240,8 @@ int main(int argc, char** argv) {
       command.ratios.push_back(std::stod(argv[++i]));
     } else if (argument == "--only" && i + 1 < argc) {
       command.only = argv[++i];
+    } else if (argument == "--plot" && i + 1 < argc) {
+      command.plot = argv[++i];
     } else if (argument == "--table31") {
       command.table31 = true;
     } else if (argument == "--special") {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "client/app/model_source.h"
-#include "client/decode/region_decoder.h"
+#include "client/stitch/decode_limits.h"
 #include "common/mesh/check_corner_table.h"
 
 namespace selvage {
@@ -14,16 +14,13 @@ namespace {
 Result<void> verify_regions(const Pack& pack) {
   const Directory& directory = pack.directory();
   for (RegionId id = 0; id < directory.regions.size(); ++id) {
-    for (const LevelEntry& level : directory.regions[id].levels) {
-      const std::string where = "region " + std::to_string(id);
-      if (auto ok = check_part(level.part, pack.part(level.part)); !ok) return forward_error(ok, where);
-      const RegionEntry& entry = directory.regions[id];
-      auto mesh = decode_region(pack.part(level.part),
-                                {.vertices = level.vertices,
-                                 .triangles = level.triangles,
-                                 .box_min = entry.box_min,
-                                 .box_max = entry.box_max,
-                                 .exact = directory.is_exact ? std::optional(directory.grid) : std::nullopt});
+    const std::vector<LevelEntry>& levels = directory.regions[id].levels;
+    for (std::uint8_t level = 0; level < levels.size(); ++level) {
+      if (levels[level].is_repeat) continue;
+      const PartRef& part = levels[level].part;
+      const std::string where = fmt::format("region {} at level {}", id, level);
+      if (auto ok = check_part(part, pack.part(part)); !ok) return forward_error(ok, where);
+      auto mesh = decode_region(pack.part(part), decode_limits(directory, id, level));
       if (!mesh) return forward_error(mesh, where);
       if (auto ok = check_corner_table(mesh->table); !ok) return forward_error(ok, where);
     }
@@ -40,7 +37,8 @@ Result<void> verify_whole(const std::filesystem::path& path) {
     return fail(
         ErrorCode::BadStream,
         fmt::format("{}: stitched to {} vertices and {} triangles, but the directory promises {} and {}",
-                    path.string(), soup.positions.size(), soup.triangles.size(), directory.vertices, directory.triangles));
+                    path.string(), soup.positions.size(), soup.triangles.size(), directory.vertices,
+                    directory.triangles));
   }
   for (const auto& [a, b, c] : soup.triangles) {
     if (a == b || b == c || c == a)

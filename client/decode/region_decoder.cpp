@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "client/decode/attribute_decoder.h"
+#include "client/decode/boundary_map_decoder.h"
 #include "client/decode/connectivity_decoder.h"
 #include "client/decode/exact_decoder.h"
 #include "common/codec/region_format.h"
@@ -24,6 +25,11 @@ bool decode_loose_vertices(EntropyDecoder<2>& in, std::uint32_t expected, Region
   return true;
 }
 
+std::uint64_t finest_boundary(const CoarseLevel& coarse) {
+  const auto& lengths = coarse.finest_loop_lengths;
+  return std::accumulate(lengths.begin(), lengths.end(), std::uint64_t{0});
+}
+
 }  // namespace
 
 Result<RegionMesh> decode_region(std::span<const std::byte> bytes, const DecodeLimits& expected,
@@ -33,13 +39,16 @@ Result<RegionMesh> decode_region(std::span<const std::byte> bytes, const DecodeL
   if (!header) return forward_error(header);
   EntropyDecoder<2> in(bytes.subspan(1), tables.region);
 
-  const GridBox box{expected.box_min, expected.box_max};
+  const int dropped_bits = expected.coarse ? expected.coarse->dropped_bits : 0;
+  const GridBox box = drop_bits({expected.box_min, expected.box_max}, dropped_bits);
   const auto mismatch = [] {
     return fail(ErrorCode::BadStream,
                 "region part: not the vertices and triangles that the directory promises");
   };
   // A symbol may be cheap but is not free: so much cannot come from so few bytes.
-  if (std::max(expected.triangles, expected.vertices) > kMaxSymbolsPerByte * bytes.size()) return mismatch();
+  const std::size_t most = kMaxSymbolsPerByte * bytes.size();
+  if (std::max(expected.triangles, expected.vertices) > most) return mismatch();
+  if (expected.coarse && finest_boundary(*expected.coarse) > most) return mismatch();
   RegionMesh mesh;
   if (expected.triangles > 0) {
     auto table = decode_connectivity(in, expected.triangles);
@@ -53,11 +62,19 @@ Result<RegionMesh> decode_region(std::span<const std::byte> bytes, const DecodeL
     if (!decode_loose_vertices(in, expected.vertices, mesh)) return mismatch();
     if (auto ok = decode_loose_positions(in, expected.vertices, box, mesh); !ok) return forward_error(ok);
   }
-  if (header->has_exact != expected.exact.has_value()) return mismatch();
+  if (header->has_exact != expected.exact.has_value() || header->is_coarse != expected.coarse.has_value())
+    return mismatch();
   if (expected.exact) {
     auto exact = decode_exact(mesh.positions, *expected.exact, in);
     if (!exact) return forward_error(exact);
     mesh.exact = std::move(*exact);
+  }
+  if (expected.coarse) {
+    auto ok = decode_boundary_map(in, expected.coarse->finest_loop_lengths, mesh);
+    if (!ok) return forward_error(ok);
+    for (GridPoint& p : mesh.positions) p = restore_bits(p, dropped_bits);
+  } else {
+    mesh.vertex_of_boundary = mesh.loops.vertices;
   }
   if (auto ok = decode_turned_and_anchors(in, *header, mesh); !ok) return forward_error(ok);
   return mesh;

@@ -12,12 +12,19 @@
 
 namespace selvage {
 
+/// What the directory says of a region's level that is not the finest.
+struct CoarseLevel {
+  std::span<const std::uint32_t> finest_loop_lengths;  ///< what boundary indices count in
+  int dropped_bits = 0;                                ///< low bits of coordinates that the level leaves out
+};
+
 /// What the directory promised about a region; the decoder gives exactly that or an error.
 struct DecodeLimits {
   std::uint32_t vertices = 0;
   std::uint32_t triangles = 0;
   GridPoint box_min, box_max;  ///< of all positions, inclusive, within [0, 2^24)
-  std::optional<Grid> exact;   ///< the grid of a bit-exact model, nothing for others
+  std::optional<Grid> exact;   ///< the grid of a bit-exact model, nothing for others and for coarser levels
+  std::optional<CoarseLevel> coarse = std::nullopt;  ///< nothing for the finest level
 };
 
 /// Decodes one region from `bytes`. Needs nothing from other regions. Safe on hostile input: reads only

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "client/decode/bundle_decoder.h"
-#include "client/decode/region_decoder.h"
+#include "client/stitch/decode_limits.h"
 
 namespace selvage {
 
@@ -20,17 +20,10 @@ Result<void> PartCollector::add(const PartId& id, std::span<const std::byte> byt
 
 Result<void> PartCollector::add_region(RegionId region, std::uint8_t level,
                                        std::span<const std::byte> bytes) {
-  const RegionEntry& owner = directory_.regions[region];
-  const LevelEntry& entry = owner.levels[level];
-  auto mesh =
-      decode_region(bytes, {.vertices = entry.vertices,
-                            .triangles = entry.triangles,
-                            .box_min = owner.box_min,
-                            .box_max = owner.box_max,
-                            .exact = directory_.is_exact ? std::optional(directory_.grid) : std::nullopt});
+  auto mesh = decode_region(bytes, decode_limits(directory_, region, level));
   if (!mesh) return forward_error(mesh);
   const std::scoped_lock lock(mutex_);
-  return stitcher_.add_region(region, std::move(*mesh));
+  return stitcher_.add_region(region, std::move(*mesh), level);
 }
 
 Result<void> PartCollector::add_bundle(RegionId region, std::span<const std::byte> bytes) {
@@ -44,6 +37,16 @@ Result<void> PartCollector::add_bundle(RegionId region, std::span<const std::byt
   return stitcher_.add_bundle(region, std::move(*triangles));
 }
 
+void PartCollector::remove_region(RegionId region) {
+  const std::scoped_lock lock(mutex_);
+  stitcher_.remove_region(region);
+}
+
+StitchUpdate PartCollector::take_update() {
+  const std::scoped_lock lock(mutex_);
+  return stitcher_.take_update();
+}
+
 StitchedMesh PartCollector::mesh() const {
   const std::scoped_lock lock(mutex_);
   return stitcher_.mesh();
@@ -51,7 +54,12 @@ StitchedMesh PartCollector::mesh() const {
 
 std::size_t PartCollector::region_count() const {
   const std::scoped_lock lock(mutex_);
-  return stitcher_.regions().size();
+  return stitcher_.region_count();
+}
+
+std::optional<std::uint8_t> PartCollector::level_of(RegionId region) const {
+  const std::scoped_lock lock(mutex_);
+  return stitcher_.level_of(region);
 }
 
 }  // namespace selvage

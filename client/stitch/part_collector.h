@@ -5,13 +5,15 @@
 
 #include <cstddef>
 #include <mutex>
+#include <optional>
 #include <span>
 
 #include "client/stitch/stitcher.h"
 
 namespace selvage {
 
-/// Thread-safe: parts decode at the same time, only adding them to the stitcher is one at a time.
+/// Thread-safe: parts decode at the same time, only adding them to the stitcher is one at a time. Of two
+/// levels of one region the one added last is shown.
 class PartCollector {
  public:
   /// `directory` is borrowed and must outlive the collector.
@@ -20,8 +22,13 @@ class PartCollector {
   /// Decodes a part whose hash was checked. BadStream names the part that is malformed.
   Result<void> add(const PartId& id, std::span<const std::byte> bytes);
 
+  void remove_region(RegionId region);
+
+  StitchUpdate take_update();
   StitchedMesh mesh() const;
   std::size_t region_count() const;
+  /// Nothing if the region is not there.
+  std::optional<std::uint8_t> level_of(RegionId region) const;
 
  private:
   Result<void> add_region(RegionId region, std::uint8_t level, std::span<const std::byte> bytes);

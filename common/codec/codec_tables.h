@@ -42,6 +42,10 @@ enum Field : unsigned {
   kExact,  ///< three: by the symbol before on the same axis
   kExact1,
   kExact2,
+  kMapLoop,    ///< bit lengths, as the next: which loop of a coarser level, counted from the one expected
+  kMapLead,    ///< boundary indices before the first whole run
+  kMapRun,     ///< boundary indices that a vertex of a coarser level stands for, less one
+  kMapExcess,  ///< bit lengths: what a run exceeds its largest plain symbol by
   kCount
 };
 }  // namespace region_model

@@ -4,8 +4,11 @@
 // else in one entropy-coded span of two states: connectivity, blends, positions, the floats behind them,
 // turned bits, anchors.
 //
-//   u8      low 4 bits kRegionPartVersion, then has_turned, has_anchors, has_exact, one reserved (0)
+//   u8      low 4 bits kRegionPartVersion, then has_turned, has_anchors, has_exact, is_coarse
 //   bytes   entropy coded to the end of the part
+//
+// A level coarser than the finest has no floats, but the boundary map before the turned bits; its coordinates
+// and the box that bounds them lack the level's dropped low bits.
 //
 // A part of a region without triangles holds loose vertices: their number stands in place of connectivity.
 #pragma once
@@ -27,6 +30,7 @@ struct RegionPartHeader {
   bool has_turned = false;
   bool has_anchors = false;
   bool has_exact = false;
+  bool is_coarse = false;  ///< not the finest level
 };
 
 void write_region_header(ByteWriter& out, const RegionPartHeader& header);
@@ -43,6 +47,13 @@ struct GridBox {
   int offset_bits(int axis) const;
 };
 
+/// A point, or a box, without its low bits, and the middle of the cell of such a point.
+GridPoint drop_bits(const GridPoint& p, int dropped);
+inline GridBox drop_bits(const GridBox& box, int dropped) {
+  return {drop_bits(box.low, dropped), drop_bits(box.high, dropped)};
+}
+GridPoint restore_bits(const GridPoint& p, int dropped);
+
 /// One axis of a residual: magnitude m is split at the class's raw_low_bits k. m >> k is a symbol 0..14, or
 /// 15 and the excess as a number; then, unless m is 0, the k low bits and the sign above them. Mirrors:
 /// server/encode/attribute_encoder.cpp, client/decode/attribute_decoder.cpp.
@@ -51,6 +62,8 @@ inline unsigned magnitude_model(unsigned axis, const Surroundings& around, const
   const unsigned several = around.parallelograms >= 2;
   return region_model::kMagnitude + (axis * 2 + several) * region_model::kMagnitudes + size.magnitude;
 }
+/// In the boundary map, a run of so many indices or more, less one, is this symbol and the excess.
+inline constexpr std::uint32_t kRunEscape = 15;
 /// More than any valid residual can be: predictions lie within 2^28 of the grid.
 inline constexpr std::uint32_t kMaxResidual = 1u << 29;
 

@@ -18,14 +18,21 @@ struct Anchor {
   friend bool operator==(const Anchor&, const Anchor&) = default;
 };
 
-/// A region as it travels: its interior triangles, a 2-manifold with boundary, in coding order.
+/// A region at one level of detail, as it travels: its interior triangles, a 2-manifold with boundary, in
+/// coding order.
 struct RegionMesh {
   CornerTable table;
-  std::vector<GridPoint> positions;  ///< by vertex
-  std::vector<ExactPosition> exact;  ///< by vertex, in a bit-exact model; else empty
+  /// By vertex, on the model's grid whatever the level: one that leaves low bits out gives the middles of its
+  /// cells, so vertices of different levels need no conversion.
+  std::vector<GridPoint> positions;
+  std::vector<ExactPosition> exact;  ///< by vertex, at the finest level of a bit-exact model; else empty
   std::vector<bool> is_turned;       ///< by triangle: the file had it the other way round. Empty: none is
   std::vector<Anchor> anchors;       ///< boundary vertices by boundary index, then others by number
-  BoundaryLoops loops;               ///< what (region, boundary index) counts in; follows from `table`
+  BoundaryLoops loops;               ///< of this level; follows from `table`
+  /// What (region, boundary index) means: by boundary index, which always counts the finest level's loops,
+  /// the vertex of this level that stands for it. The finest level's is loops.vertices; on a coarser one
+  /// neighbours on a loop may share a vertex, and a boundary triangle with two corners in one vertex is gone.
+  std::vector<VertexId> vertex_of_boundary;
 };
 
 }  // namespace selvage

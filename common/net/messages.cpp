@@ -168,6 +168,10 @@ void put(const Selection& selection, wire::GetParts& out) {
       break;
   }
   out.set_level(selection.level);
+  for (const auto& [region, level] : selection.levels) {
+    out.mutable_levels()->add_regions(region);
+    out.mutable_levels()->add_levels(level);
+  }
   out.set_joins(static_cast<std::uint32_t>(selection.joins));
 }
 
@@ -314,6 +318,10 @@ Selection selection_from(const wire::GetParts& in, Check& check) {
       break;
   }
   out.level = u8_from(in.level(), 255, "level", check);
+  const wire::RegionLevels& levels = in.levels();
+  check.that(levels.regions_size() == levels.levels_size(), "levels");
+  for (int i = 0; i < std::min(levels.regions_size(), levels.levels_size()); ++i)
+    out.levels.push_back({levels.regions(i), u8_from(levels.levels(i), 255, "levels", check)});
   out.joins = static_cast<Joins>(u8_from(in.joins(), static_cast<std::uint32_t>(Joins::All), "joins", check));
   return out;
 }

@@ -46,19 +46,23 @@ void read_box(ByteReader& in, const Grid& grid, GridPoint& low, GridPoint& high)
   }
 }
 
-// One region entry: box; loops; levels {vertices, triangles, deviation, size, hash}; bundle {size [,
-// triangles, neighbours as distances down from the region's own number, hash]}.
+// One region entry: box; loops; levels {size, vertices, triangles, hash, and from the second on deviation and
+// dropped bits; nothing but size 0 if it repeats the one before}; bundle {size [, triangles, neighbours as
+// distances down from the region's own number, hash]}.
 void write_entry(ByteWriter& out, RegionId id, const RegionEntry& entry) {
   write_box(out, entry.box_min, entry.box_max);
   out.varint(entry.loop_lengths.size());
   for (std::uint32_t length : entry.loop_lengths) out.varint(length);
   out.varint(entry.levels.size());
   for (const LevelEntry& level : entry.levels) {
+    out.varint(level.is_repeat ? 0 : level.part.size);
+    if (level.is_repeat) continue;
     out.varint(level.vertices);
     out.varint(level.triangles);
-    if (&level != &entry.levels.front()) out.f32(level.deviation);
-    out.varint(level.part.size);
     write_hash(out, level.part.hash);
+    if (&level == &entry.levels.front()) continue;
+    out.f32(level.deviation);
+    out.u8(level.dropped_bits);
   }
   out.varint(entry.bundle.size);
   if (entry.bundle.size == 0) return;
@@ -72,17 +76,31 @@ void write_entry(ByteWriter& out, RegionId id, const RegionEntry& entry) {
   write_hash(out, entry.bundle.hash);
 }
 
-void read_levels(ByteReader& in, RegionEntry& entry) {
-  const std::uint32_t count = in.count(2);
+void read_levels(ByteReader& in, int grid_bits, RegionEntry& entry) {
+  const std::uint32_t count = in.count(1);
   if (count > kMaxLevels) return in.set_failed();
-  entry.levels.resize(count);
-  for (LevelEntry& level : entry.levels) {
-    level.vertices = in.varint32();
-    level.triangles = in.varint32();
-    if (&level != &entry.levels.front()) level.deviation = in.f32();
+  for (std::uint32_t i = 0; i < count && in.ok(); ++i) {
+    LevelEntry level;
     level.part.size = in.varint32();
-    level.part.hash = read_hash(in);
-    if (level.part.size == 0 || level.vertices == 0 || !(level.deviation >= 0)) in.set_failed();
+    if (level.part.size == 0) {
+      if (i == 0) return in.set_failed();
+      level = entry.levels.back();
+      level.is_repeat = true;
+    } else {
+      level.vertices = in.varint32();
+      level.triangles = in.varint32();
+      level.part.hash = read_hash(in);
+      if (i > 0) {
+        level.deviation = in.f32();
+        level.dropped_bits = in.u8();
+      }
+      const bool is_sound =
+          level.vertices > 0 && level.deviation >= 0 && level.dropped_bits < grid_bits &&
+          (i == 0 || (level.vertices <= entry.levels.back().vertices &&
+                      level.triangles <= entry.levels.back().triangles && level.triangles > 0));
+      if (!is_sound) in.set_failed();
+    }
+    entry.levels.push_back(level);
   }
 }
 
@@ -106,7 +124,7 @@ RegionEntry read_entry(ByteReader& in, RegionId id, const Grid& grid) {
   read_box(in, grid, entry.box_min, entry.box_max);
   entry.loop_lengths.resize(in.count(1));
   for (std::uint32_t& length : entry.loop_lengths) length = in.varint32();
-  read_levels(in, entry);
+  read_levels(in, grid.bits, entry);
   read_bundle(in, id, entry);
   if (!in.ok()) return entry;
   const std::uint64_t on_loops =
@@ -149,7 +167,7 @@ void visit_source_counts(SourceCounts& source, Visit visit) {
 
 std::uint64_t parts_size(const RegionEntry& entry) {
   std::uint64_t size = entry.bundle.size;
-  for (const LevelEntry& level : entry.levels) size += level.part.size;
+  for (const LevelEntry& level : entry.levels) size += level.is_repeat ? 0 : level.part.size;
   return size;
 }
 
@@ -254,8 +272,12 @@ void write_summary(ByteWriter& out, Directory& directory, const std::vector<Page
 std::uint64_t assign_offsets(std::span<RegionEntry> regions, std::uint64_t at) {
   for (RegionEntry& entry : regions) {
     for (auto level = entry.levels.rbegin(); level != entry.levels.rend(); ++level) {
+      if (level->is_repeat) continue;
       level->part.offset = at;
       at += level->part.size;
+    }
+    for (std::size_t i = 1; i < entry.levels.size(); ++i) {
+      if (entry.levels[i].is_repeat) entry.levels[i].part = entry.levels[i - 1].part;
     }
     entry.bundle.offset = at;
     at += entry.bundle.size;
@@ -319,6 +341,12 @@ std::uint32_t RegionEntry::boundary_vertices() const {
   return std::accumulate(loop_lengths.begin(), loop_lengths.end(), std::uint32_t{0});
 }
 
+std::uint8_t RegionEntry::canonical_level(std::uint32_t level) const {
+  std::size_t at = std::min<std::size_t>(level, levels.size() - 1);
+  while (levels[at].is_repeat) --at;
+  return static_cast<std::uint8_t>(at);
+}
+
 const NamedRegions* Directory::find_name(std::string_view text) const {
   const auto found = std::lower_bound(
       names.begin(), names.end(), text,
@@ -332,7 +360,14 @@ const PartRef* Directory::find(const PartId& id) const {
   if (id.region >= regions.size()) return nullptr;
   const RegionEntry& entry = regions[id.region];
   if (id.kind == PartKind::Bundle) return id.level == 0 && entry.bundle.size > 0 ? &entry.bundle : nullptr;
-  return id.level < entry.levels.size() ? &entry.levels[id.level].part : nullptr;
+  const bool is_there = id.level < entry.levels.size() && !entry.levels[id.level].is_repeat;
+  return is_there ? &entry.levels[id.level].part : nullptr;
+}
+
+std::uint32_t Directory::level_count() const {
+  std::size_t count = 1;
+  for (const RegionEntry& entry : regions) count = std::max(count, entry.levels.size());
+  return static_cast<std::uint32_t>(count);
 }
 
 DirectoryBytes write_directory(Directory& directory) {

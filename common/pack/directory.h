@@ -37,11 +37,19 @@ struct PartRef {
   Hash hash;
 };
 
+/// One region at one level of detail.
 struct LevelEntry {
   PartRef part;
   std::uint32_t vertices = 0;
   std::uint32_t triangles = 0;  ///< interior triangles of the region at this level
-  float deviation = 0;          ///< model units from the full resolution, quantisation not counted
+  /// How far the model may lie from the finest level, in model units and in either direction, where this
+  /// region and its neighbours are at this level: measured at build, the level's rounding counted. The finest
+  /// level's own rounding (half a grid step an axis) comes on top.
+  float deviation = 0;
+  std::uint8_t dropped_bits = 0;  ///< low bits of every coordinate that this level leaves out
+  /// The region is what it was one level finer: the same part, counts and deviation. It is listed, so that
+  /// every region has every level, and addressed as the finer one (RegionEntry::canonical_level).
+  bool is_repeat = false;
 };
 
 struct RegionEntry {
@@ -54,6 +62,9 @@ struct RegionEntry {
   std::uint32_t bundle_triangles = 0;
 
   std::uint32_t boundary_vertices() const;
+  /// The level to address where `level` is wanted: the coarsest if there is none so coarse, the finest of
+  /// those that it repeats. `levels` must not be empty.
+  std::uint8_t canonical_level(std::uint32_t level) const;
 };
 
 /// What became of the input, for people and for `compare`: counts of the file's own elements.
@@ -109,7 +120,8 @@ struct Directory {
 
   /// The region's page has been read. Always so, but for a directory that parse_summary began.
   bool has(RegionId region) const { return pages.empty() || pages[page_of(region)].is_read; }
-  const PartRef* find(const PartId& id) const;                 ///< null if there is no such part
+  const PartRef* find(const PartId& id) const;  ///< null if there is no such part, or it repeats another
+  std::uint32_t level_count() const;            ///< most levels of a region; 1 without levels of detail
   const NamedRegions* find_name(std::string_view name) const;  ///< null if no part is called so
   std::uint32_t real_region_count() const { return static_cast<std::uint32_t>(regions.size()) - 1; }
 };

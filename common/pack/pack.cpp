@@ -155,7 +155,9 @@ std::vector<std::byte> assemble_pack(Directory directory, const std::vector<std:
     ++part;
   };
   for (RegionEntry& entry : directory.regions) {
-    for (auto level = entry.levels.rbegin(); level != entry.levels.rend(); ++level) fill_in(level->part);
+    for (auto level = entry.levels.rbegin(); level != entry.levels.rend(); ++level) {
+      if (!level->is_repeat) fill_in(level->part);
+    }
     if (entry.bundle_triangles > 0) fill_in(entry.bundle);
   }
   const DirectoryBytes packed = write_directory(directory);

@@ -64,7 +64,8 @@ class Pack {
 Result<void> check_part(const PartRef& ref, std::span<const std::byte> bytes);
 
 /// Lays out a whole pack. `parts` are in the order of write_directory: for every region its levels coarsest
-/// first, then its bundle if it has one. Sizes and hashes in `directory` are filled in from them.
+/// first, those that repeat another left out, then its bundle if it has one. Sizes and hashes in `directory`
+/// are filled in from them.
 std::vector<std::byte> assemble_pack(Directory directory, const std::vector<std::vector<std::byte>>& parts);
 
 }  // namespace selvage

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 namespace selvage {
 namespace {
@@ -86,6 +87,34 @@ Result<void> add_range(const RegionRange& range, std::vector<RegionId>& ids) {
   return {};
 }
 
+/// By region; those that are not selected have one, too.
+std::vector<std::uint8_t> levels_of(const Directory& directory, const Selection& selection) {
+  std::vector<std::uint8_t> level_of_region(directory.regions.size(), selection.level);
+  std::vector<bool> is_named(directory.regions.size(), false);
+  for (const auto& [region, level] : selection.levels) {
+    if (region >= directory.regions.size()) continue;
+    std::uint8_t& chosen = level_of_region[region];
+    chosen = is_named[region] ? std::min(chosen, level) : level;
+    is_named[region] = true;
+  }
+  return level_of_region;
+}
+
+/// Takes "@2" off the end of a piece, if there is such a thing.
+Result<std::optional<std::uint8_t>> take_level(std::string_view& piece) {
+  const std::size_t at = piece.rfind('@');
+  if (at == std::string_view::npos) return std::nullopt;
+  const std::string_view digits = piece.substr(at + 1);
+  if (digits.empty() || digits.find_first_not_of("0123456789") != std::string_view::npos) return std::nullopt;
+  std::uint8_t level = 0;
+  if (!parse_number(digits, level)) {
+    return fail(ErrorCode::InvalidArgument,
+                "'" + std::string(piece) + "': levels are numbers up to 255, 0 is the finest");
+  }
+  piece = piece.substr(0, at);
+  return level;
+}
+
 std::string unknown_name(const Directory& directory, const std::string& name) {
   constexpr std::size_t kShown = 10;
   std::string message = "no part is called '" + name + "'";
@@ -139,6 +168,8 @@ Result<std::vector<PartId>> select_parts(const Directory& directory, const Selec
   for (RegionId id : *regions) is_selected[id] = true;
   const std::vector<bool> is_bundle_sent = select_bundles(directory, selection, is_selected);
 
+  const std::vector<std::uint8_t> level_of_region = levels_of(directory, selection);
+
   std::vector<PartId> parts;
   const RegionEntry& loose = directory.regions[kLooseRegion];
   bool needs_loose = is_bundle_sent[kLooseRegion];
@@ -151,8 +182,7 @@ Result<std::vector<PartId>> select_parts(const Directory& directory, const Selec
   for (RegionId id = 0; id < directory.regions.size(); ++id) {
     const RegionEntry& entry = directory.regions[id];
     if (is_selected[id]) {
-      const auto coarsest = static_cast<std::uint8_t>(entry.levels.size() - 1);
-      parts.push_back({PartKind::Region, id, std::min(selection.level, coarsest)});
+      parts.push_back({PartKind::Region, id, entry.canonical_level(level_of_region[id])});
     }
     if (is_bundle_sent[id]) parts.push_back({PartKind::Bundle, id, 0});
   }
@@ -185,9 +215,12 @@ std::vector<PartId> with_pages(const Directory& directory, std::vector<PartId> p
 Result<Selection> parse_region_list(std::string_view text) {
   Selection selection{.kind = Selection::Kind::Ids};
   for (std::string_view piece : split(text, ',')) {
+    auto level = take_level(piece);
+    if (!level) return forward_error(level);
     if (is_name(piece)) {
       if (piece.front() == '=') piece.remove_prefix(1);
       selection.names.emplace_back(piece);
+      if (*level) selection.name_levels.push_back({std::string(piece), **level});
       continue;
     }
     const std::size_t dash = piece.find('-');
@@ -198,9 +231,13 @@ Result<Selection> parse_region_list(std::string_view text) {
     if (!is_number || last < first) {
       return fail(ErrorCode::InvalidArgument, "'" + std::string(piece) +
                                                   "' is not a region, a range or a name; write for instance "
-                                                  "wheel_left,3,5-7");
+                                                  "wheel_left,3,5-7@1");
     }
+    const std::size_t before = selection.ids.size();
     if (auto ok = add_range({first, last}, selection.ids); !ok) return forward_error(ok);
+    if (!*level) continue;
+    for (std::size_t i = before; i < selection.ids.size(); ++i)
+      selection.levels.push_back({selection.ids[i], **level});
   }
   return selection;
 }
@@ -213,7 +250,15 @@ Result<Selection> resolve_names(const Directory& directory, Selection selection)
       if (auto ok = add_range(range, selection.ids); !ok) return forward_error(ok);
     }
   }
+  for (const auto& [name, level] : selection.name_levels) {
+    const NamedRegions* named = directory.find_name(name);
+    if (named == nullptr) return fail(ErrorCode::NotFound, unknown_name(directory, name));
+    for (const RegionRange& range : named->ranges) {
+      for (RegionId id = range.first; id <= range.last; ++id) selection.levels.push_back({id, level});
+    }
+  }
   selection.names.clear();
+  selection.name_levels.clear();
   return selection;
 }
 

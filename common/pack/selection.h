@@ -32,6 +32,14 @@ struct Box {
   Vec3 min, max;
 };
 
+/// A region or a named part at a level of its own.
+template <class Thing>
+struct AtLevel {
+  Thing what;
+  std::uint8_t level = 0;
+  friend bool operator==(const AtLevel&, const AtLevel&) = default;
+};
+
 struct Selection {
   enum class Kind : std::uint8_t { All, Ids, Box };
   Kind kind = Kind::All;
@@ -41,7 +49,11 @@ struct Selection {
   std::vector<std::string> names = {};
   Box box;  ///< Kind::Box: regions whose boxes meet it
   Joins joins = Joins::Closure;
-  std::uint8_t level = 0;
+  std::uint8_t level = 0;  ///< of all selected regions; where there is none so coarse, the coarsest
+  /// Regions that come at another level than that; of several levels for one region the finest counts, and
+  /// regions that are not selected are not for being here.
+  std::vector<AtLevel<RegionId>> levels = {};
+  std::vector<AtLevel<std::string>> name_levels = {};  ///< the same by name; resolved with the names
 };
 
 /// The same selection with the regions that its names stand for instead of the names. NotFound names a name
@@ -52,17 +64,17 @@ Result<Selection> resolve_names(const Directory& directory, Selection selection)
 /// that is not in the model, InvalidArgument a page of the directory that would have to be read first.
 Result<std::vector<RegionId>> select_regions(const Directory& directory, const Selection& selection);
 
-/// The parts that answer a selection, regions in ascending order, each followed by its bundle. The loose part
-/// comes first when a chosen bundle needs it.
+/// The parts that answer a selection, regions in ascending order, each followed by its bundle; every region
+/// at its level, or at the one that this repeats. The loose part comes first when a chosen bundle needs it.
 Result<std::vector<PartId>> select_parts(const Directory& directory, const Selection& selection);
 
 /// The same parts with pages of the directory among them. What a part needs to be decoded and stitched is
 /// listed on pages that come before it.
 std::vector<PartId> with_pages(const Directory& directory, std::vector<PartId> parts, Pages pages);
 
-/// "wheel_left,3,5-7" -> the names and {3, 5, 6, 7}, as a selection by ids. What looks like a number or a
-/// range is one; "=3" is the part called 3. InvalidArgument names the piece that is wrong. At most 1,000,000
-/// ids.
+/// "wheel_left,3,5-7@1" -> the names and {3, 5, 6, 7}, as a selection by ids, 5 to 7 at level 1. What looks
+/// like a number or a range is one; "=3" is the part called 3. A level is what follows the last @, if that is
+/// a number. InvalidArgument names the piece that is wrong. At most 1,000,000 ids.
 Result<Selection> parse_region_list(std::string_view text);
 
 /// "x0,y0,z0,x1,y1,z1".

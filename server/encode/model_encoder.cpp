@@ -2,10 +2,15 @@
 #include "server/encode/model_encoder.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
 #include <numeric>
 
+#include "common/coding/entropy_decoder.h"
 #include "common/mesh/boundary_loops.h"
 #include "server/encode/bundle_encoder.h"
+#include "server/encode/level_encoder.h"
 #include "server/encode/region_encoder.h"
 
 namespace selvage {
@@ -38,29 +43,6 @@ VerticesByRegion group_vertices(const Partition& partition) {
   return grouped;
 }
 
-/// The weld group of every vertex that shares its source with another, kNone for all others. Groups are
-/// numbered along the mesh's borders, so that those along the rim of a part differ by one from each to the
-/// next; then come what copies lie inside. Empty if there is none.
-std::vector<std::uint32_t> find_weld_groups(const CornerTable& table,
-                                            std::span<const VertexId> source_of_vertex) {
-  if (source_of_vertex.empty()) return {};
-  const VertexId sources = *std::max_element(source_of_vertex.begin(), source_of_vertex.end()) + 1;
-  std::vector<std::uint32_t> copies(sources, 0);
-  for (VertexId source : source_of_vertex) ++copies[source];
-  std::vector<std::uint32_t> group_of_source(sources, kNone), group_of_vertex(source_of_vertex.size(), kNone);
-  std::uint32_t groups = 0;
-  const auto add = [&](VertexId v) {
-    const VertexId source = source_of_vertex[v];
-    if (copies[source] < 2) return;
-    if (group_of_source[source] == kNone) group_of_source[source] = groups++;
-    group_of_vertex[v] = group_of_source[source];
-  };
-  for (VertexId v : find_boundary_loops(table).vertices) add(v);
-  for (VertexId v = 0; v < source_of_vertex.size(); ++v) add(v);
-  if (groups == 0) group_of_vertex.clear();
-  return group_of_vertex;
-}
-
 /// The triangles of each region's bundle: those whose highest region it is.
 std::vector<std::vector<TriangleId>> group_boundary_triangles(const CornerTable& table,
                                                               const Partition& partition) {
@@ -73,6 +55,12 @@ std::vector<std::vector<TriangleId>> group_boundary_triangles(const CornerTable&
   return bundles;
 }
 
+/// The next float up, so that what is a bound stays one.
+float above(double value) {
+  const auto rounded = static_cast<float>(value);
+  return rounded < value ? std::nextafter(rounded, std::numeric_limits<float>::infinity()) : rounded;
+}
+
 class ModelEncoder {
  public:
   ModelEncoder(const ModelSource& source, const Grid& grid, const EncodeHooks& hooks)
@@ -82,6 +70,7 @@ class ModelEncoder {
         by_region_(group_vertices(source.partition)),
         weld_group_(find_weld_groups(source.table, source.source_of_vertex)),
         boundary_index_(source.positions.size(), kNone),
+        boundary_vertices_(source.partition.region_count + 1),
         local_of_triangle_(source.table.triangle_count(), kNone) {
     for (RegionId region = 1; region <= source.partition.region_count; ++region) {
       const auto triangles = source.partition.triangles_of(region);
@@ -94,14 +83,16 @@ class ModelEncoder {
     EncodedModel model;
     std::vector<RegionEntry>& entries = model.directory.regions;
     entries.resize(regions);
-    std::vector<Bytes> region_parts(regions), bundle_parts(regions);
+    std::vector<std::vector<Bytes>> level_parts(regions);
+    std::vector<Bytes> bundle_parts(regions);
     std::vector<std::size_t> connectivity_sizes(regions, 0);
     parallel(regions, [&](std::size_t i) {
       const auto region = static_cast<RegionId>(i);
       if (!by_region_.of(region).empty())
-        region_parts[i] = encode_one(region, entries[i], connectivity_sizes[i]);
+        level_parts[i].push_back(encode_one(region, entries[i], connectivity_sizes[i]));
       on_part_done();
     });
+    encode_levels(parallel, on_part_done, entries, level_parts);
     // Bundles name boundary vertices by index, so they wait for all regions.
     const auto bundles = group_boundary_triangles(source_.table, source_.partition);
     parallel(regions, [&](std::size_t i) {
@@ -110,7 +101,7 @@ class ModelEncoder {
     });
     for (RegionId region = 0; region < regions; ++region) {
       entries[region].bundle_triangles = static_cast<std::uint32_t>(bundles[region].size());
-      if (!entries[region].levels.empty()) model.parts.push_back(std::move(region_parts[region]));
+      std::move(level_parts[region].rbegin(), level_parts[region].rend(), std::back_inserter(model.parts));
       if (!bundles[region].empty()) model.parts.push_back(std::move(bundle_parts[region]));
     }
     model.directory.connectivity_bytes =
@@ -174,13 +165,54 @@ class ModelEncoder {
     connectivity_size = encoded.connectivity_size;
     const auto vertices = by_region_.of(region);
     for (std::uint32_t index = 0; index < encoded.loops.vertices.size(); ++index) {
-      boundary_index_[vertices[encoded.source_of_vertex[encoded.loops.vertices[index]]]] = index;
+      const VertexId v = vertices[encoded.source_of_vertex[encoded.loops.vertices[index]]];
+      boundary_index_[v] = index;
+      boundary_vertices_[region].push_back(v);
     }
     entry.box_min = encoded.box.low;
     entry.box_max = encoded.box.high;
     entry.loop_lengths = std::move(encoded.loops.lengths);
     entry.levels.push_back({.vertices = cut.table.vertex_count(), .triangles = cut.table.triangle_count()});
     return std::move(encoded.bytes);
+  }
+
+  /// All levels but the finest, one after the other: each needs maps of the whole mesh.
+  void encode_levels(const ParallelFor& parallel, const std::function<void()>& on_part_done,
+                     std::vector<RegionEntry>& entries, std::vector<std::vector<Bytes>>& level_parts) {
+    if (source_.levels == nullptr) return;
+    for (std::size_t level = 1; level < source_.levels->regions.size(); ++level) {
+      const LevelEncoder encoder(source_, grid_, weld_group_, level);
+      parallel(entries.size() - 1, [&](std::size_t i) {
+        const auto region = static_cast<RegionId>(i + 1);
+        encode_level(encoder, region, level, entries[region], level_parts[region]);
+        on_part_done();
+      });
+    }
+  }
+
+  void encode_level(const LevelEncoder& encoder, RegionId region, std::size_t level, RegionEntry& entry,
+                    std::vector<Bytes>& parts) {
+    const RegionLevel& source = source_.levels->regions[level][region];
+    LevelEntry coarse = entry.levels.back();
+    coarse.is_repeat = true;
+    if (!source.is_repeat || source.dropped_bits != coarse.dropped_bits) {
+      EntropyEncoder symbols;
+      Bytes bytes = encoder.encode(region, entry, boundary_vertices_[region], hooks_.tables,
+                                   hooks_.on_symbols ? &symbols : nullptr);
+      // Fewer bytes than any finer part, and enough of them to back the boundary map (docs/FORMAT.md).
+      const bool is_worth_it = bytes.size() < parts.back().size() &&
+                               entry.boundary_vertices() <= kMaxSymbolsPerByte * bytes.size();
+      if (is_worth_it) {
+        coarse = {.vertices = static_cast<std::uint32_t>(source.vertices.size()),
+                  .triangles = static_cast<std::uint32_t>(source.triangles.size()),
+                  .deviation = above(source.bound * grid_.step),
+                  .dropped_bits = static_cast<std::uint8_t>(source.dropped_bits)};
+        parts.push_back(std::move(bytes));
+        if (hooks_.on_symbols)
+          hooks_.on_symbols({PartKind::Region, region, static_cast<std::uint8_t>(level)}, symbols);
+      }
+    }
+    entry.levels.push_back(coarse);
   }
 
   Bytes encode_joins(RegionId region, std::span<const TriangleId> triangles,
@@ -213,12 +245,35 @@ class ModelEncoder {
   const Grid& grid_;
   const EncodeHooks& hooks_;
   VerticesByRegion by_region_;
-  std::vector<std::uint32_t> weld_group_;      ///< by vertex; empty if nothing is welded
-  std::vector<std::uint32_t> boundary_index_;  ///< by vertex; kNone inside a region
-  std::vector<TriangleId> local_of_triangle_;  ///< by triangle; kNone for boundary triangles
+  std::vector<std::uint32_t> weld_group_;                 ///< by vertex; empty if nothing is welded
+  std::vector<std::uint32_t> boundary_index_;             ///< by vertex; kNone inside a region
+  std::vector<std::vector<VertexId>> boundary_vertices_;  ///< by region and boundary index
+  std::vector<TriangleId> local_of_triangle_;             ///< by triangle; kNone for boundary triangles
 };
 
 }  // namespace
+
+/// Groups are numbered along the mesh's borders, so that those along the rim of a part differ by one from
+/// each to the next; then come what copies lie inside.
+std::vector<std::uint32_t> find_weld_groups(const CornerTable& table,
+                                            std::span<const VertexId> source_of_vertex) {
+  if (source_of_vertex.empty()) return {};
+  const VertexId sources = *std::max_element(source_of_vertex.begin(), source_of_vertex.end()) + 1;
+  std::vector<std::uint32_t> copies(sources, 0);
+  for (VertexId source : source_of_vertex) ++copies[source];
+  std::vector<std::uint32_t> group_of_source(sources, kNone), group_of_vertex(source_of_vertex.size(), kNone);
+  std::uint32_t groups = 0;
+  const auto add = [&](VertexId v) {
+    const VertexId source = source_of_vertex[v];
+    if (copies[source] < 2) return;
+    if (group_of_source[source] == kNone) group_of_source[source] = groups++;
+    group_of_vertex[v] = group_of_source[source];
+  };
+  for (VertexId v : find_boundary_loops(table).vertices) add(v);
+  for (VertexId v = 0; v < source_of_vertex.size(); ++v) add(v);
+  if (groups == 0) group_of_vertex.clear();
+  return group_of_vertex;
+}
 
 EncodedModel encode_model(const ModelSource& source, const Grid& grid, const ParallelFor& parallel,
                           const std::function<void()>& on_part_done, const EncodeHooks& hooks) {

@@ -15,6 +15,7 @@
 #include "common/mesh/grid.h"
 #include "common/pack/directory.h"
 #include "server/segment/partition.h"
+#include "server/simplify/levels.h"
 
 namespace selvage {
 
@@ -27,7 +28,14 @@ struct ModelSource {
   const std::vector<bool>& is_turned;  ///< by triangle
   const Partition& partition;          ///< passes check_partition
   bool is_exact = false;               ///< keep positions bit for bit; all of them must be floats
+  const LevelledMesh* levels =
+      nullptr;  ///< of the same table and partition, on the grid; null: the finest only
 };
+
+/// The weld group of every vertex that shares its source with another, kNone for all others; empty if there
+/// is none. These vertices must be pinned in all levels.
+std::vector<std::uint32_t> find_weld_groups(const CornerTable& table,
+                                            std::span<const VertexId> source_of_vertex);
 
 struct EncodedModel {
   Directory directory;  ///< grid, counts and regions; part sizes and hashes still open, see assemble_pack
@@ -41,8 +49,9 @@ struct EncodeHooks {
   std::function<void(const PartId&, const EntropyEncoder&)> on_symbols = nullptr;
 };
 
-/// `on_part_done` is called after each part, possibly from several threads at once. The result does not
-/// depend on `parallel`.
+/// A level of a region that takes no less bytes than the one before is left out as its repeat.
+/// `on_part_done` is called after each part, or what might have been one, possibly from several threads at
+/// once. The result does not depend on `parallel`.
 EncodedModel encode_model(const ModelSource& source, const Grid& grid, const ParallelFor& parallel,
                           const std::function<void()>& on_part_done, const EncodeHooks& hooks = {});
 

@@ -7,6 +7,7 @@
 
 #include "common/codec/region_format.h"
 #include "server/encode/attribute_encoder.h"
+#include "server/encode/boundary_map_encoder.h"
 #include "server/encode/connectivity_encoder.h"
 #include "server/encode/exact_encoder.h"
 
@@ -58,6 +59,15 @@ std::vector<Anchor> map_anchors(const RegionMesh& mesh, const std::vector<Vertex
   return anchors;
 }
 
+std::vector<VertexId> map_boundary(const CoarseSource& coarse, std::span<const VertexId> source_of_vertex) {
+  std::vector<VertexId> vertex_of_source(source_of_vertex.size());
+  for (VertexId v = 0; v < source_of_vertex.size(); ++v) vertex_of_source[source_of_vertex[v]] = v;
+  std::vector<VertexId> mapped;
+  mapped.reserve(coarse.vertex_of_boundary.size());
+  for (VertexId source : coarse.vertex_of_boundary) mapped.push_back(vertex_of_source[source]);
+  return mapped;
+}
+
 GridBox box_of(std::span<const GridPoint> positions) {
   GridBox box{positions.front(), positions.front()};
   for (const GridPoint& p : positions) {
@@ -73,7 +83,9 @@ GridBox box_of(std::span<const GridPoint> positions) {
 
 EncodedRegion encode_region(const RegionSource& source, const CodecTables& tables, EntropyEncoder* symbols) {
   EncodedRegion encoded;
-  encoded.box = box_of(source.positions);
+  encoded.box = source.coarse ? source.coarse->finest_box : box_of(source.positions);
+  const int dropped_bits = source.coarse ? source.coarse->dropped_bits : 0;
+  const GridBox box = drop_bits(encoded.box, dropped_bits);
   EntropyEncoder out;
   RegionMesh mesh;
   if (source.table.triangle_count() > 0) {
@@ -81,9 +93,9 @@ EncodedRegion encode_region(const RegionSource& source, const CodecTables& table
     out.mark();
     const std::vector<VertexId> source_of_grown = map_vertices(connectivity, source.table);
     std::vector<GridPoint> positions;
-    for (VertexId v : source_of_grown) positions.push_back(v == kNone ? GridPoint{} : source.positions[v]);
-    const std::vector<VertexId> order =
-        encode_positions(connectivity.table, positions, encoded.box, tables, out);
+    for (VertexId v : source_of_grown)
+      positions.push_back(v == kNone ? GridPoint{} : drop_bits(source.positions[v], dropped_bits));
+    const std::vector<VertexId> order = encode_positions(connectivity.table, positions, box, tables, out);
     for (VertexId grown : order) encoded.source_of_vertex.push_back(source_of_grown[grown]);
     mesh.is_turned = map_turned(connectivity, source.is_turned);
     mesh.table = std::move(connectivity.table);
@@ -92,7 +104,7 @@ EncodedRegion encode_region(const RegionSource& source, const CodecTables& table
   } else {
     out.number(region_model::kLooseCount, source.table.vertex_count());
     out.mark();
-    encode_loose_positions(source.positions, encoded.box, out);
+    encode_loose_positions(source.positions, box, out);
     mesh.table = source.table;
     mesh.loops = loose_loops(source.table.vertex_count());
     encoded.source_of_vertex = mesh.loops.vertices;
@@ -106,12 +118,17 @@ EncodedRegion encode_region(const RegionSource& source, const CodecTables& table
     }
     encode_exact(positions, mesh.exact, source.grid, out);
   }
+  if (source.coarse) {
+    mesh.vertex_of_boundary = map_boundary(*source.coarse, encoded.source_of_vertex);
+    encode_boundary_map(mesh, source.coarse->finest_loop_lengths, out);
+  }
   encode_turned_and_anchors(mesh, out);
 
   ByteWriter part;
   write_region_header(part, {.has_turned = !mesh.is_turned.empty(),
                              .has_anchors = !mesh.anchors.empty(),
-                             .has_exact = !mesh.exact.empty()});
+                             .has_exact = !mesh.exact.empty(),
+                             .is_coarse = source.coarse.has_value()});
   const EntropyEncoder::Coded coded = out.finish<2>(tables.region);
   part.append(coded.bytes);
   encoded.connectivity_size = coded.bytes_to_mark;

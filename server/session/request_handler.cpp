@@ -78,9 +78,9 @@ Result<Answer> answer_get(std::uint32_t request_id, const GetParts& request, std
   if (request.pack_id && *request.pack_id != pack->id()) {
     return fail(ErrorCode::ModelChanged, "'" + request.model + "' is another pack now; open it again");
   }
-  if (request.selection.ids.size() > limits.ids_per_request) {
-    return fail(ErrorCode::LimitExceeded,
-                "more than " + std::to_string(limits.ids_per_request) + " region ids in one request");
+  if (std::max(request.selection.ids.size(), request.selection.levels.size()) > limits.ids_per_request) {
+    return fail(ErrorCode::LimitExceeded, "more than " + std::to_string(limits.ids_per_request) +
+                                              " region ids or levels in one request");
   }
   auto selected = select_parts(pack->directory(), request.selection);
   if (!selected) return forward_error(selected);

@@ -37,6 +37,23 @@ std::vector<RegionLevel> regions_at(const CornerTable& mesh, std::span<const Reg
 
 }  // namespace
 
+CornerId corner_across(const CornerTable& mesh, std::span<const VertexId> representative_of_vertex,
+                       CornerId c) {
+  const auto at = [&](CornerId corner) { return representative_of_vertex[mesh.vertex(corner)]; };
+  CornerId across = mesh.opposite[c];
+  // A triangle that is gone has its third vertex in one of the edge's two; the way out is to the other.
+  while (across != kNone) {
+    if (at(across) == at(next(across))) {
+      across = mesh.opposite[next(across)];
+    } else if (at(across) == at(prev(across))) {
+      across = mesh.opposite[prev(across)];
+    } else {
+      break;
+    }
+  }
+  return across;
+}
+
 std::vector<Triangle> substituted_triangles(const CornerTable& mesh,
                                             std::span<const VertexId> representative_of_vertex,
                                             std::vector<TriangleId>* source_of_triangle) {

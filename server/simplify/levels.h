@@ -20,6 +20,12 @@ std::vector<Triangle> substituted_triangles(const CornerTable& mesh,
                                             std::span<const VertexId> representative_of_vertex,
                                             std::vector<TriangleId>* source_of_triangle = nullptr);
 
+/// At a level, the corner across the edge that corner c faces, whose triangle must be left: triangles that
+/// are gone are passed through. kNone at the border. Says which triangles meet where vertices alone would
+/// not: cut non-manifold edges share both.
+CornerId corner_across(const CornerTable& mesh, std::span<const VertexId> representative_of_vertex,
+                       CornerId c);
+
 /// One region at one level. Its triangles, in the representatives of their corners, are an oriented manifold
 /// with boundary in as many pieces as the finest region; its loops are those of the finest region with the
 /// vertices that went left out, in the same order.
@@ -30,6 +36,10 @@ struct RegionLevel {
   double deviation = 0;            ///< largest of the region's collapses, in units of the positions
   /// The region has lost nothing since the level before: the two are the same.
   bool is_repeat = false;
+
+  // Filled in by set_precisions and bound_deviations, for meshes on a grid.
+  int dropped_bits = 0;  ///< low bits of coordinates that the level can do without
+  double bound = 0;      ///< see level_bounds.h, in grid steps
 };
 
 struct LevelledMesh {

@@ -75,6 +75,7 @@ TEST(Messages, GetPartsKeepsEverySelection) {
   EXPECT_EQ(back->pack_id, get.pack_id);
   EXPECT_EQ(back->selection.ids, get.selection.ids);
   EXPECT_EQ(back->selection.level, get.selection.level);
+  EXPECT_EQ(back->selection.levels, get.selection.levels);
   EXPECT_EQ(back->selection.joins, get.selection.joins);
   EXPECT_EQ(back->have, get.have);
   ASSERT_EQ(back->partial.size(), 1u);

@@ -48,7 +48,11 @@ inline GetParts sample() {
   GetParts get;
   get.model = "bunny";
   get.pack_id = sample_hash(3);
-  get.selection = {.kind = Selection::Kind::Ids, .ids = {3, 5, 70'000}, .joins = Joins::All, .level = 2};
+  get.selection = {.kind = Selection::Kind::Ids,
+                   .ids = {3, 5, 70'000},
+                   .joins = Joins::All,
+                   .level = 2,
+                   .levels = {{5, 0}, {3, 255}}};
   get.have = {sample_hash(4), sample_hash(5)};
   get.partial = {{sample_hash(6), 4096}};
   get.urgency = 1;

@@ -116,5 +116,50 @@ TEST(Selection, ResolvesNamesToTheirRegions) {
   EXPECT_NE(missing.error().message.find("'c'; there are a, b"), std::string::npos);
 }
 
+/// Regions of row_of_five with levels: 0, 1 and, the same as 1, 2; region 5 has 0 alone.
+Directory row_with_levels() {
+  Directory directory = row_of_five();
+  for (RegionId id = 1; id < 5; ++id) {
+    auto& levels = directory.regions[id].levels;
+    levels.push_back({.part = {.size = 7}, .vertices = 4, .triangles = 2, .deviation = 1, .dropped_bits = 2});
+    levels.push_back(levels.back());
+    levels.back().is_repeat = true;
+  }
+  return directory;
+}
+
+std::vector<int> levels_in(const Directory& directory, const Selection& selection) {
+  std::vector<int> levels;
+  const auto parts = select_parts(directory, selection).value();
+  for (const PartId& part : parts) {
+    if (part.kind == PartKind::Region) levels.push_back(part.level);
+  }
+  return levels;
+}
+
+TEST(Selection, GivesEveryRegionItsLevel) {
+  const Directory directory = row_with_levels();
+  EXPECT_EQ(levels_in(directory, {.level = 1}), (std::vector<int>{1, 1, 1, 1, 0}));
+  EXPECT_EQ(levels_in(directory, {.level = 2}), (std::vector<int>{1, 1, 1, 1, 0}));
+  Selection mixed{.level = 1};
+  mixed.levels = {{2, 1}, {2, 0}, {3, 0}, {3, 2}, {4, 9}, {77, 0}};
+  EXPECT_EQ(levels_in(directory, mixed), (std::vector<int>{1, 0, 0, 1, 0}));
+}
+
+TEST(Selection, ParsesLevels) {
+  Directory directory = row_with_levels();
+  directory.names = {{"a", {{1, 2}}}, {"b@1", {{4, 4}}}};
+  const auto levels = [&](const char* text, std::uint8_t level) {
+    Selection selection = parse_region_list(text).value();
+    selection.level = level;
+    return levels_in(directory, resolve_names(directory, selection).value());
+  };
+  EXPECT_EQ(levels("3@0,1-2@1", 0), (std::vector<int>{1, 1, 0}));
+  EXPECT_EQ(levels("3,1-2@0", 1), (std::vector<int>{0, 0, 1}));
+  EXPECT_EQ(levels("a@1,b@1@0,2@0", 1), (std::vector<int>{1, 0, 0}));
+  EXPECT_EQ(parse_region_list("a@b").value().names, (std::vector<std::string>{"a@b"}));
+  for (const char* bad : {"1@256", "@1", "1-@1", "a@999"}) EXPECT_FALSE(parse_region_list(bad)) << bad;
+}
+
 }  // namespace
 }  // namespace selvage
