@@ -31,7 +31,7 @@ constexpr int kNotSentLowWaterNear = 512 << 10;
 constexpr unsigned kNearMicroseconds = 2000;
 
 /// From a file, smaller pieces cost more than they save: see docs/DECISIONS.md.
-constexpr std::size_t kSendfileFrom = 32u << 10;
+constexpr std::size_t kSendfileFrom = 192u << 10;
 
 /// The handshake has measured it. Unknown is far.
 bool is_near(int socket) {
