@@ -65,10 +65,12 @@ Result<void> run(const DrawCommand& command) {
   auto selection = command.selection.selection();
   if (!selection) return forward_error(selection);
   ProgressLine line;
-  auto model =
-      fetch(command.source, {*selection, 0}, [&](std::uint32_t parts, std::uint32_t of, std::uint64_t) {
-        line.show(fmt::format("{} of {} parts", parts, of));
-      });
+  auto connection = command.connection.client_options();
+  if (!connection) return forward_error(connection);
+  auto model = fetch(command.source, {*selection, 0, *connection},
+                     [&](std::uint32_t parts, std::uint32_t of, std::uint64_t) {
+                       line.show(fmt::format("{} of {} parts", parts, of));
+                     });
   if (!model) return forward_error(model);
   line.show("drawing");
   const std::vector<Panel> panels =

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "client/app/selection_options.h"
+#include "client/app/server_options.h"
 #include "common/render/camera.h"
 
 namespace selvage {
@@ -19,6 +20,7 @@ struct DrawCommand {
   int size = 640;  ///< pixels of one picture's longer side
   UpAxis up = UpAxis::Y;
   bool labels = true;
+  ServerOptions connection;
 };
 
 Result<void> run(const DrawCommand& command);

@@ -42,7 +42,9 @@ void print_text(const GetCommand& command, const FetchedModel& model) {
 Result<void> run(const GetCommand& command) {
   auto selection = command.selection.selection();
   if (!selection) return forward_error(selection);
-  const FetchOptions options{*selection, command.threads};
+  auto connection = command.connection.client_options();
+  if (!connection) return forward_error(connection);
+  const FetchOptions options{*selection, command.threads, *connection};
   ProgressLine line;
   auto model =
       command.from_pack

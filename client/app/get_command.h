@@ -5,6 +5,7 @@
 #include <string>
 
 #include "client/app/selection_options.h"
+#include "client/app/server_options.h"
 
 namespace selvage {
 
@@ -16,6 +17,7 @@ struct GetCommand {
   SelectionOptions selection;
   unsigned threads = 0;
   bool json = false;
+  ServerOptions connection;  ///< of get
 };
 
 Result<void> run(const GetCommand& command);

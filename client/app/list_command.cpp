@@ -41,7 +41,9 @@ std::string to_text(const std::vector<RegionRange>& ranges) {
 Result<void> run(const ListCommand& command) {
   auto server = parse_host_port(command.server);
   if (!server) return forward_error(server, command.server);
-  auto client = BlockingClient::connect(*server);
+  auto options = command.connection.client_options();
+  if (!options) return forward_error(options);
+  auto client = BlockingClient::connect(*server, *options);
   if (!client) return forward_error(client, command.server);
   auto models = client->list();
   if (!models) return forward_error(models, command.server);
@@ -64,7 +66,9 @@ Result<void> run(const ListCommand& command) {
 }
 
 Result<void> run(const RegionsCommand& command) {
-  auto directory = fetch_directory(command.source);
+  auto options = command.connection.client_options();
+  if (!options) return forward_error(options);
+  auto directory = fetch_directory(command.source, *options);
   if (!directory) return forward_error(directory);
   if (command.json) {
     auto json = nlohmann::ordered_json::array();

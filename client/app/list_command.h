@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "client/app/server_options.h"
 #include "common/base/result.h"
 
 namespace selvage {
@@ -11,6 +12,7 @@ namespace selvage {
 struct ListCommand {
   std::string server;  ///< HOST:PORT
   bool json = false;
+  ServerOptions connection;
 };
 Result<void> run(const ListCommand& command);
 
@@ -18,6 +20,7 @@ Result<void> run(const ListCommand& command);
 struct RegionsCommand {
   std::string source;  ///< HOST:PORT/MODEL or a pack
   bool json = false;
+  ServerOptions connection;
 };
 Result<void> run(const RegionsCommand& command);
 

@@ -113,7 +113,7 @@ Result<FetchedModel> fetch_from_server(const std::string& address, const FetchOp
   const auto begin = Clock::now();
   auto where = parse_address(address);
   if (!where) return forward_error(where);
-  auto client = BlockingClient::connect(where->server);
+  auto client = BlockingClient::connect(where->server, options.connection);
   if (!client) return forward_error(client, address);
   auto manifest = client->open(where->model);
   if (!manifest) return forward_error(manifest, address);
@@ -147,7 +147,7 @@ Result<FetchedModel> fetch(const std::string& source, const FetchOptions& option
   return fetch_from_server(source, options, progress);
 }
 
-Result<Directory> fetch_directory(const std::string& source) {
+Result<Directory> fetch_directory(const std::string& source, const ClientOptions& connection) {
   if (std::filesystem::exists(source)) {
     auto pack = Pack::open(source);
     if (!pack) return forward_error(pack);
@@ -155,7 +155,7 @@ Result<Directory> fetch_directory(const std::string& source) {
   }
   auto where = parse_address(source);
   if (!where) return forward_error(where);
-  auto client = BlockingClient::connect(where->server);
+  auto client = BlockingClient::connect(where->server, connection);
   if (!client) return forward_error(client, source);
   auto manifest = client->open(where->model);
   if (!manifest) return forward_error(manifest, source);

@@ -9,6 +9,7 @@
 #include <functional>
 #include <string>
 
+#include "client/session/client_session.h"
 #include "client/stitch/stitcher.h"
 #include "common/pack/pack.h"
 #include "common/pack/selection.h"
@@ -29,7 +30,8 @@ struct FetchedModel {
 
 struct FetchOptions {
   Selection selection;
-  unsigned threads = 0;  ///< that decode; 0: all cores
+  unsigned threads = 0;      ///< that decode; 0: all cores
+  ClientOptions connection;  ///< to a server
 };
 
 /// Called on the calling thread with what has arrived so far.
@@ -47,7 +49,7 @@ Result<FetchedModel> fetch(const std::string& source, const FetchOptions& option
                            const FetchProgress& progress);
 
 /// The directory alone, of either.
-Result<Directory> fetch_directory(const std::string& source);
+Result<Directory> fetch_directory(const std::string& source, const ClientOptions& connection);
 
 /// The line that every written mesh carries where its format has comments.
 std::string provenance(const Directory& directory);

@@ -11,6 +11,8 @@
 #include "client/app/draw_command.h"
 #include "client/app/get_command.h"
 #include "client/app/list_command.h"
+#include "client/app/publish_command.h"
+#include "client/app/status_command.h"
 #include "client/app/verify_command.h"
 
 namespace {
@@ -21,13 +23,16 @@ void add(CLI::App& app, ListCommand& command) {
   CLI::App& list = *app.add_subcommand("list", "List the models of a server");
   list.add_option("SERVER", command.server, "HOST:PORT")->required();
   list.add_flag("--json", command.json, "print as JSON");
+  command.connection.add_to(list);
   list.footer("Example:\n  selvage-client list localhost:7878");
 }
 
 void add(CLI::App& app, RegionsCommand& command) {
-  CLI::App& regions = *app.add_subcommand("regions", "List the regions of a model, and the names of its parts");
+  CLI::App& regions =
+      *app.add_subcommand("regions", "List the regions of a model, and the names of its parts");
   regions.add_option("SOURCE", command.source, "HOST:PORT/MODEL or a pack")->required();
   regions.add_flag("--json", command.json, "print as JSON");
+  command.connection.add_to(regions);
   regions.footer(
       "Examples:\n  selvage-client regions localhost:7878/bunny\n  selvage-client regions bunny.selvage "
       "--json");
@@ -44,6 +49,7 @@ void add_get(CLI::App& app, GetCommand& command) {
   CLI::App& get = *app.add_subcommand("get", "Fetch regions from a server and write them as one mesh");
   get.add_option("SOURCE", command.source, "HOST:PORT/MODEL")->required();
   add_output(get, command);
+  command.connection.add_to(get);
   get.footer(
       "Examples:\n"
       "  selvage-client get localhost:7878/bunny -o bunny.ply\n"
@@ -79,6 +85,7 @@ void add(CLI::App& app, DrawCommand& command) {
       ->default_str("y");
   draw.add_flag("!--no-labels", command.labels, "leave region numbers out");
   command.selection.add_to(draw);
+  command.connection.add_to(draw);
   draw.footer(
       "Examples:\n"
       "  selvage-client draw bunny.selvage -o bunny.png\n"
@@ -111,6 +118,51 @@ void add(CLI::App& app, CompareCommand& command) {
       "  selvage-client compare bunny.ply fetched.ply --bits 12");
 }
 
+void add(CLI::App& app, PublishCommand& command) {
+  CLI::App& publish = *app.add_subcommand("publish", "Upload a mesh, which becomes a model of the server");
+  publish.add_option("SERVER", command.server, "HOST:PORT")->required();
+  publish.add_option("MODEL", command.model, "a mesh: .ply .obj .off .stl .wrl .om")->required();
+  publish.add_option("--name", command.name, "of the model (default: MODEL's name)");
+  publish.add_flag("--replace", command.replace,
+                   "a model of that name; who has it open keeps it until he opens it again");
+  publish.add_flag("--lossless", command.lossless, "keep float32 positions bit for bit");
+  publish.add_option("--bits", command.bits, "grid planes along the longest side: 2^bits")
+      ->check(CLI::Range(8, 24))
+      ->capture_default_str();
+  publish.add_option("--units", command.units, "what one unit of the model is, for instance mm");
+  publish.add_option("--retries", command.retries, "connections lost in a row before it gives up")
+      ->capture_default_str();
+  publish.add_flag("--json", command.json, "print the result as JSON");
+  command.connection.add_to(publish);
+  publish.footer(
+      "The server must be one that grants the scope 'publish' to your token. An upload that was cut off "
+      "goes\n"
+      "on where it was, at once or when the same command is given again.\n"
+      "Examples:\n"
+      "  SELVAGE_TOKEN=$(cat token) selvage-client publish localhost:7878 bunny.ply\n"
+      "  selvage-client publish models.example.org:7878 engine.stl --tls --token-file token --name engine-2 "
+      "--bits 16\n"
+      "  selvage-client publish localhost:7878 bunny.ply --replace --token-file token");
+}
+
+void add(CLI::App& app, UnpublishCommand& command) {
+  CLI::App& unpublish = *app.add_subcommand("unpublish", "Take a model away from a server");
+  unpublish.add_option("SERVER", command.server, "HOST:PORT")->required();
+  unpublish.add_option("NAME", command.name, "of the model")->required();
+  command.connection.add_to(unpublish);
+  unpublish.footer(
+      "Who has the model open keeps it until he opens it again.\n"
+      "Example:\n  selvage-client unpublish localhost:7878 bunny --token-file token");
+}
+
+void add(CLI::App& app, StatusCommand& command) {
+  CLI::App& status = *app.add_subcommand("status", "Say how a server is");
+  status.add_option("SERVER", command.server, "HOST:PORT")->required();
+  status.add_flag("--json", command.json, "print as JSON");
+  command.connection.add_to(status);
+  status.footer("Example:\n  selvage-client status localhost:7878");
+}
+
 /// The exit code; errors go to stderr.
 template <class Command>
 int finish(const Command& command) {
@@ -136,6 +188,9 @@ int main(int argc, char** argv) {
   DrawCommand draw;
   VerifyCommand verify;
   CompareCommand compare;
+  PublishCommand publish;
+  UnpublishCommand unpublish;
+  StatusCommand status;
   add(app, list);
   add(app, regions);
   add_get(app, get);
@@ -143,6 +198,9 @@ int main(int argc, char** argv) {
   add(app, draw);
   add(app, verify);
   add(app, compare);
+  add(app, publish);
+  add(app, unpublish);
+  add(app, status);
   CLI11_PARSE(app, argc, argv);
   if (app.got_subcommand("list")) return finish(list);
   if (app.got_subcommand("regions")) return finish(regions);
@@ -150,5 +208,8 @@ int main(int argc, char** argv) {
   if (app.got_subcommand("unpack")) return finish(unpack);
   if (app.got_subcommand("draw")) return finish(draw);
   if (app.got_subcommand("verify")) return finish(verify);
+  if (app.got_subcommand("publish")) return finish(publish);
+  if (app.got_subcommand("unpublish")) return finish(unpublish);
+  if (app.got_subcommand("status")) return finish(status);
   return finish(compare);
 }

@@ -35,6 +35,41 @@ Result<bool> PongReader::on_frame(const Frame& frame) {
   return true;
 }
 
+Result<bool> StatusReader::on_frame(const Frame& frame) {
+  if (!frame.is(FrameType::StatusReport)) return out_of_place(frame);
+  auto report = parse<StatusReport>(frame.payload);
+  if (!report) return forward_error(report);
+  report_ = std::move(*report);
+  return true;
+}
+
+Result<bool> EndReader::on_frame(const Frame& frame) {
+  if (!frame.is(FrameType::RequestEnd)) return out_of_place(frame);
+  return true;
+}
+
+Result<bool> PublishReader::on_frame(const Frame& frame) {
+  if (frame.is(FrameType::PublishReady) && !is_ready_) {
+    auto ready = parse<PublishReady>(frame.payload);
+    if (!ready) return forward_error(ready);
+    if (ready->offset > size_bytes_) return fail(ErrorCode::Protocol, "the server holds more than there is");
+    is_ready_ = true;
+    on_ready_(frame.header.request_id, ready->offset);
+    return false;
+  }
+  if (frame.is(FrameType::PublishProgress) && is_ready_) {
+    auto progress = parse<PublishProgress>(frame.payload);
+    if (!progress) return forward_error(progress);
+    on_progress_(*progress);
+    return false;
+  }
+  if (!frame.is(FrameType::Published) || !is_ready_) return out_of_place(frame);
+  auto published = parse<Published>(frame.payload);
+  if (!published) return forward_error(published);
+  published_ = std::move(*published);
+  return true;
+}
+
 Result<bool> ModelsReader::on_frame(const Frame& frame) {
   if (!frame.is(FrameType::Models)) return out_of_place(frame);
   auto models = parse<Models>(frame.payload);

@@ -51,6 +51,40 @@ class ModelsReader final : public AnswerReader {
   Models models_;
 };
 
+class StatusReader final : public AnswerReader {
+ public:
+  Result<bool> on_frame(const Frame& frame) override;
+  StatusReport take() { return std::move(report_); }
+
+ private:
+  StatusReport report_;
+};
+
+/// An answer without data: of Unpublish.
+class EndReader final : public AnswerReader {
+ public:
+  Result<bool> on_frame(const Frame& frame) override;
+};
+
+class PublishReader final : public AnswerReader {
+ public:
+  /// Called once: from where on the server wants the bytes, and for which request.
+  using OnReady = std::function<void(std::uint32_t request_id, std::uint64_t offset)>;
+  using OnProgress = std::function<void(const PublishProgress&)>;
+
+  PublishReader(std::uint64_t size_bytes, OnReady on_ready, OnProgress on_progress)
+      : size_bytes_(size_bytes), on_ready_(std::move(on_ready)), on_progress_(std::move(on_progress)) {}
+  Result<bool> on_frame(const Frame& frame) override;
+  Published take() { return std::move(published_); }
+
+ private:
+  std::uint64_t size_bytes_;
+  OnReady on_ready_;
+  OnProgress on_progress_;
+  bool is_ready_ = false;
+  Published published_;
+};
+
 class ManifestReader final : public AnswerReader {
  public:
   ManifestReader(std::string name, std::uint64_t max_bytes) : name_(std::move(name)), max_bytes_(max_bytes) {}

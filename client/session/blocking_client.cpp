@@ -129,6 +129,18 @@ Result<std::chrono::steady_clock::duration> BlockingClient::ping() {
   return network_->wait_for(network_->session().ping());
 }
 
+Result<StatusReport> BlockingClient::status() { return network_->wait_for(network_->session().status()); }
+
+Result<Published> BlockingClient::publish(PublishRequest request, OnPublishState on_state,
+                                          std::stop_token stop) {
+  return network_->wait_for(
+      network_->session().publish(std::move(request), std::move(on_state), std::move(stop)));
+}
+
+Result<void> BlockingClient::unpublish(const std::string& name) {
+  return network_->wait_for(network_->session().unpublish(name));
+}
+
 Result<GetStats> BlockingClient::get(GetRequest request, const OnPart& on_part, std::stop_token stop) {
   const auto queue = std::make_shared<PartQueue>();
   std::stop_source source;

@@ -31,6 +31,11 @@ class BlockingClient {
   Result<std::vector<ModelInfo>> list();
   Result<std::shared_ptr<const Manifest>> open(const std::string& name);
   Result<std::chrono::steady_clock::duration> ping();
+  Result<StatusReport> status();
+
+  /// As ClientSession::publish. Both callbacks come on the network thread.
+  Result<Published> publish(PublishRequest request, OnPublishState on_state, std::stop_token stop = {});
+  Result<void> unpublish(const std::string& name);
 
   /// Called on the thread that called get(), with each verified part. An error cancels the rest.
   using OnPart = std::function<Result<void>(ReceivedPart)>;

@@ -11,6 +11,7 @@
 
 #include "common/net/await.h"
 #include "common/net/frame_io.h"
+#include "common/net/tls.h"
 
 namespace selvage {
 namespace {
@@ -26,13 +27,18 @@ constexpr std::uint32_t kMinIdleTimeoutMs = 1000;
 /// The frame after which nothing comes for its request.
 bool ends_answer(FrameType type) {
   return type == FrameType::RequestEnd || type == FrameType::Error || type == FrameType::Models ||
-         type == FrameType::Pong;
+         type == FrameType::Pong || type == FrameType::Published || type == FrameType::StatusReport;
 }
 
 /// The server's words on why it says no.
 Error error_in(const Frame& frame) {
   auto message = parse<ErrorMessage>(frame.payload);
   return message ? std::move(message->error) : std::move(message.error());
+}
+
+bool is_loopback(const asio::ip::tcp::socket& socket) {
+  boost::system::error_code ignored;
+  return socket.remote_endpoint(ignored).address().is_loopback();
 }
 
 }  // namespace
@@ -45,15 +51,32 @@ ClientSession::ClientSession(std::unique_ptr<ByteStream> stream, ClientOptions o
       options_(std::move(options)),
       incoming_(kMaxPayload, kReadSize),
       wake_writer_(stream_->executor()),
+      wake_upload_(stream_->executor()),
       greeting_(stream_->executor()),
       window_(options_.window_bytes) {}
 
 asio::awaitable<Result<std::shared_ptr<ClientSession>>> ClientSession::connect(HostPort server,
                                                                                ClientOptions options) {
-  Result<std::unique_ptr<ByteStream>> stream =
-      co_await connect_tcp(server.host, server.port, options.connect_timeout);
-  if (!stream) co_return forward_error(stream);
-  co_return co_await start(std::move(*stream), std::move(options));
+  std::shared_ptr<TlsContext> tls;
+  if (options.tls) {
+    Result<std::shared_ptr<TlsContext>> context = tls_client_context(options.tls->ca);
+    if (!context) co_return forward_error(context);
+    tls = std::move(*context);
+  }
+  Result<asio::ip::tcp::socket> socket =
+      co_await connect_socket(server.host, server.port, options.connect_timeout);
+  if (!socket) co_return forward_error(socket);
+  if (!tls && !options.token.empty() && !options.allow_plain && !is_loopback(*socket)) {
+    co_return fail(ErrorCode::InvalidArgument,
+                   "the token would travel unencrypted; connect with TLS, or allow plain connections");
+  }
+  std::unique_ptr<ByteStream> stream =
+      tls ? make_tls_stream(std::move(*socket), tls, server.host) : make_tcp_stream(std::move(*socket));
+  Result<std::shared_ptr<ClientSession>> session = co_await start(std::move(stream), std::move(options));
+  const bool is_babble =
+      !session && (session.error().code == ErrorCode::Protocol || session.error().code == ErrorCode::Io);
+  if (is_babble && !tls) session.error().message += " (does the server want TLS?)";
+  co_return session;
 }
 
 asio::awaitable<Result<std::shared_ptr<ClientSession>>> ClientSession::start(
@@ -85,16 +108,22 @@ asio::awaitable<Result<std::shared_ptr<ClientSession>>> ClientSession::start(
 }
 
 asio::awaitable<Result<void>> ClientSession::greet() {
+  Result<void> ready = co_await stream_->handshake();
+  if (!ready) co_return ready;
   Hello hello;
   hello.software = options_.software;
   hello.initial_credit = options_.window_bytes;
+  hello.token = options_.token;
   const std::vector<std::byte> bytes = to_frame(hello, 0);
   const Pieces pieces(1, bytes);
   Result<void> written = co_await stream_->write(pieces);
   if (!written) co_return written;
   Result<std::optional<Frame>> frame = co_await read_frame(*stream_, incoming_);
   if (!frame) co_return forward_error(frame);
-  if (!frame->has_value()) co_return fail(ErrorCode::Unavailable, "the server closed the connection");
+  if (!frame->has_value()) {
+    const std::string hint = options_.tls ? "" : " (does the server want TLS?)";
+    co_return fail(ErrorCode::Unavailable, "the server closed the connection" + hint);
+  }
   if ((*frame)->is(FrameType::Error)) co_return tl::unexpected(error_in(**frame));
   if (!(*frame)->is(FrameType::HelloAck)) co_return fail(ErrorCode::Protocol, "the server does not greet");
   Result<HelloAck> ack = parse<HelloAck>((*frame)->payload);
@@ -239,6 +268,7 @@ asio::awaitable<void> ClientSession::write_loop() {
       continue;
     }
     const std::vector<std::byte> bytes = std::exchange(outgoing_, {});
+    wake_upload_.notify();
     const Pieces pieces(1, bytes);
     const Result<void> written = co_await stream_->write(pieces);
     if (!written) co_return;
@@ -374,6 +404,88 @@ asio::awaitable<Result<GetStats>> ClientSession::get(GetRequest request, OnPart 
   Result<void> answered = co_await exchange(std::move(message), *reader, std::move(stop));
   if (!answered) co_return forward_error(answered);
   co_return reader->stats();
+}
+
+asio::awaitable<Result<StatusReport>> ClientSession::status() {
+  StatusReader reader;
+  Result<void> answered = co_await exchange(Status(), reader, std::stop_token());
+  if (!answered) co_return forward_error(answered);
+  co_return reader.take();
+}
+
+// ---- publishing
+// ----------------------------------------------------------------------------------------------
+
+/// Shared between publish(), which waits for the answer, and upload(), which sends.
+struct ClientSession::UploadState {
+  PublishRequest request;
+  OnPublishState on_state;
+  std::uint64_t offset = 0;
+  std::stop_source failed;       ///< cancels the request because reading failed ...
+  std::optional<Error> failure;  ///< ... with this
+  bool is_over = false;
+};
+
+asio::awaitable<Result<Published>> ClientSession::publish(PublishRequest request, OnPublishState on_state,
+                                                          std::stop_token stop) {
+  const auto state = std::make_shared<UploadState>();
+  state->request = std::move(request);
+  state->on_state = std::move(on_state);
+  auto on_ready = [this, state](std::uint32_t request_id, std::uint64_t offset) {
+    state->offset = offset;
+    asio::co_spawn(executor(), upload(request_id, state), asio::detached);
+  };
+  auto on_progress = [state](const PublishProgress& progress) {
+    const PublishState now{state->request.what.size_bytes, progress};
+    state->on_state(now);
+  };
+  PublishReader reader(state->request.what.size_bytes, std::move(on_ready), std::move(on_progress));
+  auto pass_on = [state] { state->failed.request_stop(); };
+  const std::stop_callback cancels(stop, std::move(pass_on));
+  Publish message = state->request.what;
+  Result<void> answered = co_await exchange(std::move(message), reader, state->failed.get_token());
+  state->is_over = true;
+  wake_upload_.notify();
+  if (state->failure) co_return tl::unexpected(*state->failure);
+  if (!answered) co_return forward_error(answered);
+  co_return reader.take();
+}
+
+/// Sends the file in Data frames, never more than one ahead of the writer: what waits for a slow connection
+/// waits in the file.
+asio::awaitable<void> ClientSession::upload(std::uint32_t request_id, std::shared_ptr<UploadState> state) {
+  const std::shared_ptr<ClientSession> self = shared_from_this();
+  const std::uint64_t size = state->request.what.size_bytes;
+  std::vector<std::byte> frame;
+  while (state->offset < size && !state->is_over && !ended_) {
+    if (!outgoing_.empty()) {
+      co_await wake_upload_.wait();
+      continue;
+    }
+    frame.resize(kFrameHeaderSize + std::min<std::uint64_t>(kMaxDataPayload, size - state->offset));
+    const Result<std::size_t> count =
+        state->request.read(state->offset, std::span(frame).subspan(kFrameHeaderSize));
+    if (!count || *count == 0) {
+      state->failure = count ? Error{ErrorCode::Io, "the file has become shorter"} : count.error();
+      state->failed.request_stop();
+      co_return;
+    }
+    frame.resize(kFrameHeaderSize + *count);
+    state->offset += *count;
+    const FrameHeader header{static_cast<std::uint32_t>(*count), FrameType::Data,
+                             state->offset == size ? kFlagEnd : std::uint8_t{0}, request_id, 0};
+    write_header(header, HeaderBytes(frame.data(), kFrameHeaderSize));
+    outgoing_.insert(outgoing_.end(), frame.begin(), frame.end());
+    wake_writer_.notify();
+    const PublishState now{state->offset, PublishProgress()};
+    state->on_state(now);
+  }
+}
+
+asio::awaitable<Result<void>> ClientSession::unpublish(std::string name) {
+  EndReader reader;
+  Unpublish request{std::move(name)};
+  co_return co_await exchange(std::move(request), reader, std::stop_token());
 }
 
 asio::awaitable<Result<std::chrono::steady_clock::duration>> ClientSession::ping() {

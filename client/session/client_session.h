@@ -13,11 +13,13 @@
 
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -33,8 +35,17 @@
 
 namespace selvage {
 
+/// Whom to believe about who a server is.
+struct TlsTrust {
+  std::filesystem::path ca;  ///< PEM file of authorities; empty: the system's
+};
+
 struct ClientOptions {
   std::string software = "selvage";
+  std::string token;                           ///< sent in the Hello; empty: none
+  std::optional<TlsTrust> tls = std::nullopt;  ///< absent: plain TCP
+  bool allow_plain =
+      false;  ///< send a token over plain TCP even to other machines, where it can be overheard
   std::chrono::milliseconds connect_timeout{10'000};  ///< for the connection, and again for the greeting
   std::chrono::milliseconds silence_timeout{30'000};  ///< a server that says nothing for so long is gone
   std::uint64_t window_bytes = 8u << 20;              ///< see credit_window.h; at least kMinInitialCredit
@@ -50,11 +61,26 @@ struct ReceivedPart {
   Receipt receipt;
 };
 
+/// A mesh file to be published. `read` gives its bytes from an offset on, at most as many as fit; it is
+/// called on the strand, and an error of it ends the publishing.
+struct PublishRequest {
+  Publish what;
+  std::function<Result<std::size_t>(std::uint64_t offset, std::span<std::byte> into)> read;
+};
+
+/// How far publishing is, called on the strand. `sent_bytes` counts what the server held already.
+struct PublishState {
+  std::uint64_t sent_bytes = 0;
+  PublishProgress server;  ///< once all is sent
+};
+using OnPublishState = std::function<void(const PublishState&)>;
+
 /// Single-strand: call everything on executor(). It lives until close() is called or the connection ends,
 /// even when nobody holds it.
 class ClientSession : public std::enable_shared_from_this<ClientSession> {
  public:
-  /// Connects and greets. NotFound, Unavailable, Timeout; Unsupported if the versions do not meet; Protocol.
+  /// Connects and greets. NotFound, Unavailable, Timeout; Unauthorised if either side does not accept the
+  /// other; Unsupported if the versions do not meet; Protocol.
   /// The session's strand is the executor of the caller, which must be one.
   static asio::awaitable<Result<std::shared_ptr<ClientSession>>> connect(HostPort server,
                                                                          ClientOptions options);
@@ -75,6 +101,15 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   /// not what the directory lists; Cancelled soon after `stop` is requested (from any thread), and no part
   /// after it.
   asio::awaitable<Result<GetStats>> get(GetRequest request, OnPart on_part, std::stop_token stop = {});
+
+  /// Uploads a mesh and waits until it is a model of the server; one at a time. Unauthorised without the
+  /// scope; InvalidArgument if the name is in use and not to be replaced; what selvage-pack says of a bad
+  /// mesh; Cancelled. Asked again after the connection was lost, it goes on where it was.
+  asio::awaitable<Result<Published>> publish(PublishRequest request, OnPublishState on_state,
+                                             std::stop_token stop = {});
+  asio::awaitable<Result<void>> unpublish(std::string name);
+
+  asio::awaitable<Result<StatusReport>> status();
 
   /// How long a round trip takes.
   asio::awaitable<Result<std::chrono::steady_clock::duration>> ping();
@@ -110,6 +145,9 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
 
   template <class Message>
   asio::awaitable<Result<void>> exchange(Message message, AnswerReader& reader, std::stop_token stop);
+  struct UploadState;
+  asio::awaitable<void> upload(std::uint32_t request_id, std::shared_ptr<UploadState> state);
+
   template <class Message>
   void send(const Message& message, std::uint32_t request_id);
   void cancel(std::uint32_t request_id);
@@ -124,6 +162,7 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   FrameBuffer incoming_;
   std::vector<std::byte> outgoing_;  ///< whole frames for the next write
   Signal wake_writer_;
+  Signal wake_upload_;  ///< the writer has taken what was to be sent
   Deadline greeting_;
   std::chrono::steady_clock::time_point last_heard_;
 

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstring>
 #include <string>
+#include <utility>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -26,6 +27,13 @@ class TemporaryFile {
       if (file_ < 0 && errno != EEXIST) return;
     }
   }
+  struct Exactly {
+    std::filesystem::path path;
+  };
+  /// At this place and no other; what is there is overwritten.
+  explicit TemporaryFile(const Exactly& place) : path_(place.path.string()) {
+    file_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  }
   ~TemporaryFile() {
     if (file_ >= 0) ::close(file_);
     if (!path_.empty() && is_ours_) ::unlink(path_.c_str());
@@ -47,14 +55,19 @@ class TemporaryFile {
   }
 
   bool rename_to(const std::filesystem::path& path) {
-    const int file = file_;
-    file_ = -1;
-    if (::close(file) != 0 || ::rename(path_.c_str(), path.c_str()) != 0) return false;
+    if (!close() || ::rename(path_.c_str(), path.c_str()) != 0) return false;
     is_ours_ = false;
     return true;
   }
 
+  /// A second name, which must be free; the destructor removes the first.
+  bool link_to(const std::filesystem::path& path) {
+    return close() && ::link(path_.c_str(), path.c_str()) == 0;
+  }
+
  private:
+  bool close() { return ::close(std::exchange(file_, -1)) == 0; }
+
   std::string path_;
   int file_ = -1;
   bool is_ours_ = false;
@@ -67,6 +80,31 @@ Result<void> replace_file(const std::filesystem::path& path, std::string_view co
   if (!file.is_open()) return fail_with_errno("cannot create a file there");
   if (!file.write(content)) return fail_with_errno("cannot write");
   if (!file.rename_to(path)) return fail_with_errno("cannot move the new file into place");
+  return {};
+}
+
+Result<void> place_file(const std::filesystem::path& path, std::string_view content,
+                        const std::filesystem::path& temporary, IfExists if_exists) {
+  {
+    TemporaryFile file(TemporaryFile::Exactly{temporary});
+    if (!file.is_open()) return fail_with_errno("cannot create a file there");
+    if (!file.write(content)) return fail_with_errno("cannot write");
+    const bool is_placed = if_exists == IfExists::Replace ? file.rename_to(path) : file.link_to(path);
+    if (!is_placed && errno == EEXIST)
+      return fail(ErrorCode::InvalidArgument, "there is a file of that name");
+    if (!is_placed) return fail_with_errno("cannot move the new file into place");
+  }
+  return sync_folder(path.parent_path());
+}
+
+Result<void> sync_folder(const std::filesystem::path& folder) {
+  const int file = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (file < 0) return fail_with_errno("cannot open the folder");
+  const bool is_synced = ::fsync(file) == 0;
+  const int code = errno;
+  ::close(file);
+  errno = code;
+  if (!is_synced) return fail_with_errno("cannot put the folder on the disk");
   return {};
 }
 

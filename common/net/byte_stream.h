@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A connection as sessions see it: bytes in order, both ways. TCP is one (tcp_stream.h); tests have another
-// in memory, which fails where they want it to. TLS and WebSocket are to come.
+// A connection as sessions see it: bytes in order, both ways. TCP is one (tcp_stream.h), TLS another (tls.h);
+// tests have one in memory, which fails where they want it to. WebSocket is to come.
 //
 // Single-strand: everything is called, and completes, on executor(). One read and one write may be under way
 // at the same time.
@@ -38,6 +38,9 @@ using Pieces = std::vector<Piece>;
 class ByteStream {
  public:
   virtual ~ByteStream() = default;
+
+  /// What must be agreed with the peer before bytes flow; called once, first. TCP has nothing to agree.
+  virtual asio::awaitable<Result<void>> handshake() { co_return Result<void>(); }
 
   /// Reads at least one byte into `into`, which is not empty; 0 when the peer has ended the stream.
   virtual asio::awaitable<Result<std::size_t>> read_some(std::span<std::byte> into) = 0;

@@ -55,6 +55,20 @@ std::string_view to_string(FrameType type) {
       return "Pong";
     case FrameType::GoAway:
       return "GoAway";
+    case FrameType::Publish:
+      return "Publish";
+    case FrameType::PublishReady:
+      return "PublishReady";
+    case FrameType::PublishProgress:
+      return "PublishProgress";
+    case FrameType::Published:
+      return "Published";
+    case FrameType::Unpublish:
+      return "Unpublish";
+    case FrameType::Status:
+      return "Status";
+    case FrameType::StatusReport:
+      return "StatusReport";
   }
   return "Unknown";
 }

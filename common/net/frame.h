@@ -37,8 +37,15 @@ enum class FrameType : std::uint8_t {
   Ping = 15,
   Pong = 16,
   GoAway = 17,
+  Publish = 18,
+  PublishReady = 19,
+  PublishProgress = 20,
+  Published = 21,
+  Unpublish = 22,
+  Status = 23,
+  StatusReport = 24,
 };
-inline constexpr std::uint8_t kLastFrameType = 17;
+inline constexpr std::uint8_t kLastFrameType = 24;
 
 /// The enumerator's name, for logs and error messages.
 std::string_view to_string(FrameType type);

@@ -29,6 +29,8 @@ inline constexpr std::uint64_t kMaxCredit = std::uint64_t{1} << 40;
 inline constexpr std::size_t kMaxNameLength = 128;
 inline constexpr std::size_t kMaxTextLength = 1024;
 inline constexpr std::size_t kMaxTokenLength = 4096;
+inline constexpr std::size_t kMaxStageLength = 32;
+inline constexpr std::size_t kMaxRepeated = 100;  ///< notes, problems, jobs: more are left out
 inline constexpr std::uint8_t kMaxUrgency = 7;
 inline constexpr std::uint8_t kDefaultUrgency = 3;
 
@@ -39,7 +41,7 @@ struct Hello {
   std::uint32_t max_version = kProtocolVersion;      ///< not below min_version
   std::string software;                              ///< name and version, for logs
   std::uint64_t initial_credit = kMinInitialCredit;  ///< kMinInitialCredit to kMaxCredit
-  std::string token;                                 ///< reserved; at most kMaxTokenLength bytes
+  std::string token;                                 ///< empty: none; at most kMaxTokenLength bytes
 };
 
 /// The server's first frame: the version they speak, and what the server puts up with.
@@ -147,7 +149,87 @@ struct GoAway {
   std::string reason;
 };
 
+/// A mesh that is to become a model. Its bytes follow in Data frames once PublishReady has said from where
+/// on.
+struct Publish {
+  static constexpr FrameType kType = FrameType::Publish;
+  std::string name;              ///< of the model
+  std::string file;              ///< the mesh file's name, without folders; its extension names the format
+  std::uint64_t size_bytes = 0;  ///< of the mesh file, not 0
+  Hash hash;                     ///< of the whole mesh file
+  bool replace = false;          ///< a model that has the name already
+  bool lossless = false;
+  std::uint8_t bits = 14;  ///< of the grid
+  std::string units;
+};
+
+struct PublishReady {
+  static constexpr FrameType kType = FrameType::PublishReady;
+  std::uint64_t offset = 0;  ///< how many bytes the server holds already
+};
+
+struct PublishProgress {
+  static constexpr FrameType kType = FrameType::PublishProgress;
+  std::string stage;           ///< "wait", "check", "read" and the stages of ingest
+  std::uint32_t permille = 0;  ///< of that stage; at most 1000
+  std::uint32_t ahead = 0;     ///< others to be ingested before this one
+};
+
+/// The model is in the list, and on the disk.
+struct Published {
+  static constexpr FrameType kType = FrameType::Published;
+  std::string name;
+  Hash pack_id;
+  std::uint64_t size_bytes = 0;  ///< of the pack
+  std::uint32_t regions = 0;
+  std::uint32_t vertices = 0;
+  std::uint32_t triangles = 0;
+  std::vector<std::string> notes;  ///< what was wrong with the mesh and could be mended
+};
+
+struct Unpublish {
+  static constexpr FrameType kType = FrameType::Unpublish;
+  std::string name;
+};
+
+struct PublishJob {
+  std::string name;
+  std::string stage;
+  std::uint32_t permille = 0;
+};
+
+struct ModelProblem {
+  std::string name;
+  std::string problem;
+};
+
+/// How the server is. Sums are since it started.
+struct StatusReport {
+  static constexpr FrameType kType = FrameType::StatusReport;
+  std::string software;
+  std::uint64_t uptime_seconds = 0;
+  bool draining = false;
+  bool is_encrypted = false;  ///< connections are TLS
+  std::uint32_t models = 0;   ///< damaged ones included
+  std::uint64_t model_bytes = 0;
+  std::vector<ModelProblem> problems;  ///< damaged models, not all if they are many
+  std::uint64_t connections = 0;       ///< now
+  std::uint64_t max_connections = 0;
+  std::uint64_t connections_accepted = 0;
+  std::uint64_t connections_refused = 0;
+  std::uint64_t requests = 0;
+  std::uint64_t errors = 0;
+  std::uint64_t bytes_sent = 0;
+  std::uint64_t bytes_uploaded = 0;
+  std::uint64_t published = 0;
+  std::uint64_t publish_failed = 0;
+  std::vector<PublishJob> jobs;  ///< the first is being worked on
+};
+
 /// Frames without payload.
+struct Status {
+  static constexpr FrameType kType = FrameType::Status;
+};
 struct Cancel {
   static constexpr FrameType kType = FrameType::Cancel;
 };

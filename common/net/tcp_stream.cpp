@@ -98,11 +98,6 @@ class Unsent {
   std::size_t next_ = 0, done_ = 0;  ///< piece, and bytes of it
 };
 
-tl::unexpected<Error> io_failure(const error_code& error) {
-  if (error == asio::error::operation_aborted) return fail(ErrorCode::Cancelled, "the connection was closed");
-  return fail(ErrorCode::Io, "the connection broke: " + error.message());
-}
-
 /// What is sent from a file cannot say that more follows: without this the next header would be a packet of
 /// its own, which costs more than the two calls.
 class Cork {
@@ -124,21 +119,18 @@ class Cork {
 class TcpStream final : public ByteStream {
  public:
   explicit TcpStream(tcp::socket socket) : socket_(std::move(socket)) {
+    tune_for_sessions(socket_);
     error_code ignored;
-    socket_.set_option(tcp::no_delay(true), ignored);
     socket_.native_non_blocking(true, ignored);
     near_ = is_near(socket_.native_handle());
-    using NotSentLowWater = asio::detail::socket_option::integer<IPPROTO_TCP, TCP_NOTSENT_LOWAT>;
-    socket_.set_option(NotSentLowWater(near_ ? kNotSentLowWaterNear : kNotSentLowWater), ignored);
-    const tcp::endpoint remote = socket_.remote_endpoint(ignored);
-    peer_ = HostPort{remote.address().to_string(), remote.port()}.to_string();
+    peer_ = peer_of(socket_);
   }
 
   asio::awaitable<Result<std::size_t>> read_some(std::span<std::byte> into) override {
     const asio::mutable_buffer room(into.data(), into.size());
     auto [error, count] = co_await socket_.async_read_some(room, kAwait);
     if (error == asio::error::eof) co_return std::size_t{0};
-    if (error) co_return io_failure(error);
+    if (error) co_return connection_failure(error);
     co_return count;
   }
 
@@ -147,13 +139,13 @@ class TcpStream final : public ByteStream {
     Unsent unsent(pieces);
     const Cork cork(socket_, unsent.has_file());
     while (!unsent.empty()) {
-      if (!socket_.is_open()) co_return io_failure(asio::error::operation_aborted);
+      if (!socket_.is_open()) co_return connection_failure(asio::error::operation_aborted);
       if (unsent.send(socket_.native_handle()) >= 0 || errno == EINTR) continue;
       if (errno != EAGAIN && errno != EWOULDBLOCK) {
-        co_return io_failure(error_code(errno, boost::system::system_category()));
+        co_return connection_failure(error_code(errno, boost::system::system_category()));
       }
       auto [error] = co_await socket_.async_wait(tcp::socket::wait_write, kAwait);
-      if (error) co_return io_failure(error);
+      if (error) co_return connection_failure(error);
       waited = true;
     }
     // Others have their turn, even when the kernel takes whatever we have.
@@ -187,17 +179,18 @@ asio::awaitable<Result<Endpoints>> resolve(std::string host, std::uint16_t port)
   co_return endpoints;
 }
 
-asio::awaitable<Result<std::unique_ptr<ByteStream>>> resolve_and_connect(std::string host,
-                                                                         std::uint16_t port) {
+/// By pointer: what `||` chooses from must be default-constructible, which a socket is not.
+asio::awaitable<Result<std::unique_ptr<tcp::socket>>> resolve_and_connect(std::string host,
+                                                                          std::uint16_t port) {
   Result<Endpoints> endpoints = co_await resolve(host, port);
   if (!endpoints) co_return forward_error(endpoints);
-  tcp::socket socket(co_await asio::this_coro::executor);
-  auto [error, endpoint] = co_await asio::async_connect(socket, *endpoints, kAwait);
+  auto socket = std::make_unique<tcp::socket>(co_await asio::this_coro::executor);
+  auto [error, endpoint] = co_await asio::async_connect(*socket, *endpoints, kAwait);
   if (error) {
     co_return fail(ErrorCode::Unavailable,
                    "cannot connect to " + HostPort{host, port}.to_string() + ": " + error.message());
   }
-  co_return make_tcp_stream(std::move(socket));
+  co_return socket;
 }
 
 asio::awaitable<void> pause(std::chrono::steady_clock::duration duration) {
@@ -207,12 +200,31 @@ asio::awaitable<void> pause(std::chrono::steady_clock::duration duration) {
 
 }  // namespace
 
+void tune_for_sessions(tcp::socket& socket) {
+  error_code ignored;
+  socket.set_option(tcp::no_delay(true), ignored);
+  using NotSentLowWater = asio::detail::socket_option::integer<IPPROTO_TCP, TCP_NOTSENT_LOWAT>;
+  const bool near = is_near(socket.native_handle());
+  socket.set_option(NotSentLowWater(near ? kNotSentLowWaterNear : kNotSentLowWater), ignored);
+}
+
+std::string peer_of(const tcp::socket& socket) {
+  error_code ignored;
+  const tcp::endpoint remote = socket.remote_endpoint(ignored);
+  return HostPort{remote.address().to_string(), remote.port()}.to_string();
+}
+
+tl::unexpected<Error> connection_failure(const error_code& error) {
+  if (error == asio::error::operation_aborted) return fail(ErrorCode::Cancelled, "the connection was closed");
+  return fail(ErrorCode::Io, "the connection broke: " + error.message());
+}
+
 std::unique_ptr<ByteStream> make_tcp_stream(tcp::socket socket) {
   return std::make_unique<TcpStream>(std::move(socket));
 }
 
-asio::awaitable<Result<std::unique_ptr<ByteStream>>> connect_tcp(
-    std::string host, std::uint16_t port, std::chrono::steady_clock::duration timeout) {
+asio::awaitable<Result<tcp::socket>> connect_socket(std::string host, std::uint16_t port,
+                                                    std::chrono::steady_clock::duration timeout) {
   using namespace asio::experimental::awaitable_operators;
   auto connecting = resolve_and_connect(host, port);
   auto timer = pause(timeout);
@@ -220,7 +232,16 @@ asio::awaitable<Result<std::unique_ptr<ByteStream>>> connect_tcp(
   if (first.index() == 1) {
     co_return fail(ErrorCode::Timeout, "no answer from " + HostPort{host, port}.to_string());
   }
-  co_return std::move(std::get<0>(first));
+  Result<std::unique_ptr<tcp::socket>> socket = std::move(std::get<0>(first));
+  if (!socket) co_return forward_error(socket);
+  co_return std::move(**socket);
+}
+
+asio::awaitable<Result<std::unique_ptr<ByteStream>>> connect_tcp(
+    std::string host, std::uint16_t port, std::chrono::steady_clock::duration timeout) {
+  Result<tcp::socket> socket = co_await connect_socket(std::move(host), port, timeout);
+  if (!socket) co_return forward_error(socket);
+  co_return make_tcp_stream(std::move(*socket));
 }
 
 std::string HostPort::to_string() const {

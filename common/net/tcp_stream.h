@@ -17,8 +17,15 @@ namespace selvage {
 /// to be sent waits in the session, where it can still be cancelled.
 std::unique_ptr<ByteStream> make_tcp_stream(asio::ip::tcp::socket socket);
 
+/// The same for streams on top of one: sets these options; names the peer; says how a connection failed.
+void tune_for_sessions(asio::ip::tcp::socket& socket);
+std::string peer_of(const asio::ip::tcp::socket& socket);
+tl::unexpected<Error> connection_failure(const boost::system::error_code& error);
+
 /// Resolves and connects, trying each address. NotFound: no such host; Unavailable: nobody listens there;
 /// Timeout.
+asio::awaitable<Result<asio::ip::tcp::socket>> connect_socket(std::string host, std::uint16_t port,
+                                                              std::chrono::steady_clock::duration timeout);
 asio::awaitable<Result<std::unique_ptr<ByteStream>>> connect_tcp(std::string host, std::uint16_t port,
                                                                  std::chrono::steady_clock::duration timeout);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 namespace selvage {
 namespace {
@@ -115,15 +116,40 @@ Result<std::optional<std::uint8_t>> take_level(std::string_view& piece) {
   return level;
 }
 
+/// How many letters must change to make one of the other, capitals aside; what follows the first 40 is not
+/// looked at.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  constexpr std::size_t kMaxLetters = 40;
+  a = a.substr(0, kMaxLetters), b = b.substr(0, kMaxLetters);
+  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i + 1);
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t replaced = diagonal + (lower(a[i]) != lower(b[j]));
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
+    }
+  }
+  return row.back();
+}
+
+/// Shows all names where there are few, otherwise those most like it.
 std::string unknown_name(const Directory& directory, const std::string& name) {
   constexpr std::size_t kShown = 10;
   std::string message = "no part is called '" + name + "'";
   if (directory.names.empty()) return message + "; this model has no names, only regions by number";
-  message += "; there are ";
-  for (std::size_t i = 0; i < std::min(kShown, directory.names.size()); ++i)
-    message += (i > 0 ? ", " : "") + directory.names[i].name;
-  if (directory.names.size() > kShown)
-    message += " and " + std::to_string(directory.names.size() - kShown) + " more";
+  const bool are_many = directory.names.size() > kShown;
+  std::vector<std::pair<std::size_t, std::size_t>> shown;  // how unlike, place in the directory
+  for (std::size_t i = 0; i < directory.names.size(); ++i)
+    shown.emplace_back(are_many ? edit_distance(name, directory.names[i].name) : 0, i);
+  std::sort(shown.begin(), shown.end());
+  if (are_many) shown.resize(kShown);
+  message += are_many ? "; most like it are " : "; there are ";
+  for (std::size_t i = 0; i < shown.size(); ++i)
+    message += (i > 0 ? ", " : "") + directory.names[shown[i].second].name;
+  if (are_many) message += ", and " + std::to_string(directory.names.size() - kShown) + " others";
   return message;
 }
 

@@ -13,6 +13,7 @@
 #include "common/mesh_io/read_mesh.h"
 #include "common/pack/pack.h"
 #include "server/ingest/ingest.h"
+#include "server/ingest/repair_notes.h"
 
 namespace selvage {
 namespace {
@@ -29,16 +30,7 @@ std::string count_of(std::uint32_t count, const char* one, const char* many) {
 }
 
 void print_repair(const RepairReport& report, const std::string& file) {
-  const auto note = [&](std::uint32_t count, const char* one, const char* many, const char* what) {
-    if (count > 0) fmt::print(stderr, "{}: {} {}\n", file, count_of(count, one, many), what);
-  };
-  note(report.dropped_triangles, "triangle", "triangles", "with a repeated vertex dropped");
-  note(report.unreferenced_vertices, "vertex", "vertices", "that no triangle uses dropped");
-  note(report.duplicate_triangles, "triangle", "triangles", "that repeat another kept");
-  note(report.zero_area_triangles, "triangle", "triangles", "without area kept");
-  note(report.turned_triangles, "triangle", "triangles", "turned for coding; clients turn them back");
-  note(report.vertex_copies, "copy", "copies",
-       "of vertices made at non-manifold spots; clients weld them again");
+  for (const std::string& note : notes_of(report)) fmt::print(stderr, "{}: {}\n", file, note);
 }
 
 void print_json(const BuildCommand& command, const std::filesystem::path& path, const IngestedModel& model,

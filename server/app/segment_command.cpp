@@ -27,6 +27,11 @@ struct SegmentedFile {
   std::size_t boundary_triangles = 0;
 };
 
+SegmentOptions options_for(const SegmentCommand& command, const RepairedMesh& mesh) {
+  const SegmentOptions& options = command.segmentation.segment;
+  return command.streaming ? with_streaming_sizes(options, mesh.table.triangle_count()) : options;
+}
+
 Result<SegmentedFile> segment_file(const SegmentCommand& command) {
   const std::string path = command.segmentation.model.string();
   auto file = read_mesh(path);
@@ -40,7 +45,7 @@ Result<SegmentedFile> segment_file(const SegmentCommand& command) {
 
   SegmentedFile result{.soup = std::move(file->soup), .mesh = spatially_ordered(std::move(*repaired))};
   result.named =
-      segment_model(result.mesh, *parts, command.segmentation.segment, threaded_for(command.threads));
+      segment_model(result.mesh, *parts, options_for(command, result.mesh), threaded_for(command.threads));
   const Segmentation& regions = result.named.regions;
   result.region_of_triangle = regions_of_source_triangles(result.mesh, regions, result.soup.triangles.size());
   const Partition partition =
@@ -111,9 +116,8 @@ Result<void> draw(const SegmentCommand& command, const SegmentedFile& model) {
 }
 
 RegionHierarchy hierarchy_of(const SegmentCommand& command, const RepairedMesh& mesh) {
-  const SegmentOptions sized =
-      with_streaming_sizes(command.segmentation.segment, mesh.table.triangle_count());
-  return grow_xmrg_hierarchy(mesh.table, mesh.positions, xmrg_options(sized), threaded_for(command.threads))
+  return grow_xmrg_hierarchy(mesh.table, Neighbours(mesh.table), mesh.positions,
+                             xmrg_options(options_for(command, mesh)), threaded_for(command.threads))
       .regions;
 }
 
@@ -184,7 +188,7 @@ Result<void> run(const SegmentCommand& command) {
              model->boundary_triangles, regions.loose_vertex_count);
   print_names(model->named.regions_of_name);
   if (command.hierarchy)
-    print_hierarchy(hierarchy_of(command, model->mesh), command.segmentation.segment.stop_saliency);
+    print_hierarchy(hierarchy_of(command, model->mesh), options_for(command, model->mesh).stop_saliency);
   return {};
 }
 

@@ -20,6 +20,7 @@ struct SegmentCommand {
   std::filesystem::path png;
   UpAxis up = UpAxis::Y;
   int size = 640;          ///< pixels of one picture's width
+  bool streaming = false;  ///< the sizes that `build` gives to large models
   bool hierarchy = false;  ///< print all merges with their saliency
   unsigned threads = 0;
   bool json = false;

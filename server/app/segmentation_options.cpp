@@ -27,20 +27,23 @@ void add_sizes(CLI::App& command, SegmentOptions& options) {
   command
       .add_option_function<std::string>(
           "--regions", [&options](const std::string& text) { set_region_count(text, options); },
-          "auto: as many as the shape has, on models above 20,000 triangles of 256 to 4096 vertices each; N: "
+          "auto: as many as the shape has; for streaming, on models above 20,000 triangles, of 384 to 4096 "
+          "vertices each; N: "
           "merge until N are left, whatever their size (xmrg, cad, mw99)")
       ->type_name("auto|N")
       ->default_str("auto")
       ->group(kGroup);
   command
       .add_option("--min-region", options.min_region_vertices,
-                  "merge regions with fewer vertices; 0: 256 on models above 20,000 triangles, else 0.5 % of "
+                  "merge regions with fewer vertices; 0: for streaming, 384 on models above 20,000 "
+                  "triangles, else 0.5 % of "
                   "the area (xmrg, cad) or 1 % of the vertices")
       ->capture_default_str()
       ->group(kGroup);
   command
       .add_option("--max-region", options.max_region_vertices,
-                  "xmrg, cad: cut regions with more vertices; 0: 4096 on models above 20,000 triangles, else "
+                  "xmrg, cad: cut regions with more vertices; 0: for streaming, 4096 on models above 20,000 "
+                  "triangles, else "
                   "none is too large")
       ->capture_default_str()
       ->group(kGroup);

@@ -76,6 +76,9 @@ void add_segment(CLI::App& app, SegmentCommand& command) {
   segment.add_option("--size", command.size, "pixels of one picture's width")
       ->check(CLI::Range(64, 4096))
       ->capture_default_str();
+  segment.add_flag("--streaming", command.streaming,
+                   "the regions that build makes, which are sized for streaming on models above 20,000 "
+                   "triangles; without it, as many as the shape has");
   segment.add_flag("--hierarchy", command.hierarchy,
                    "print every merge of regions with its saliency (xmrg, cad)");
   segment.add_option("--threads", command.threads, "0: all cores; the regions are the same for any number")
@@ -89,6 +92,7 @@ void add_segment(CLI::App& app, SegmentCommand& command) {
       "Examples:\n"
       "  selvage-pack segment horse.off -o horse.seg\n"
       "  selvage-pack segment horse.off -o horse.ply --png horse.png --regions 12\n"
+      "  selvage-pack segment scan.ply --streaming --png scan.png\n"
       "  selvage-pack segment fandisk.off --mode cad --png fandisk.png --up z\n"
       "  selvage-pack segment car.obj --segment-by groups -o car.json\n"
       "  selvage-pack segment horse.off --hierarchy");

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
 // selvage-server: serves a folder of packs. The threads and signals of the server are here; what it says to
-// clients is in server/session.
+// clients is in server/session, what it takes from publishers in server/publish.
+#include <atomic>
+#include <condition_variable>
 #include <csignal>
 #include <cstdio>
+#include <functional>
+#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -17,6 +21,11 @@
 #include "common/base/log.h"
 #include "common/base/replace_file.h"
 #include "common/net/tcp_stream.h"
+#include "common/net/tls.h"
+#include "server/app/server_options.h"
+#include "server/operate/health_server.h"
+#include "server/operate/metrics.h"
+#include "server/publish/publisher.h"
 #include "server/session/listener.h"
 #include "server/store/pack_store.h"
 
@@ -27,66 +36,24 @@ using namespace selvage;
 constexpr const char* kExamples =
     "Examples:\n"
     "  selvage-server --store packs\n"
-    "  selvage-server --store packs --listen 0.0.0.0:7878\n"
+    "  selvage-server --store packs --listen 0.0.0.0:7878 --cert server.crt --key server.key --tokens "
+    "tokens\n"
+    "  selvage-server --store packs --listen 192.168.1.5:7878 --allow-plain\n"
+    "  selvage-server --config /etc/selvage/server.toml --health 127.0.0.1:7879\n"
     "  selvage-server --store packs --listen 127.0.0.1:0 --port-file port.txt\n"
     "\n"
     "The first line on stdout is 'listening on HOST:PORT'. SIGINT and SIGTERM let requests in flight "
     "finish,\n"
-    "a second one cuts them off. Exit codes: 0 stopped by a signal, 130 cut off by a second, 1 failure,\n"
-    "100 and more bad options.";
+    "a second one cuts them off; SIGHUP reads the certificate, its key and the tokens again, for "
+    "connections\n"
+    "to come. Exit codes: 0 stopped by a signal, 130 cut off by a second, 1 failure, 100 and more bad "
+    "options.";
 
-struct Options {
-  std::string store;
-  std::string listen = "127.0.0.1:7878";
-  std::string port_file;
-  unsigned threads = 0;
-  bool verbose = false;
-  ServerLimits limits;
-};
-
-void add_seconds(CLI::App& app, const std::string& name, std::chrono::milliseconds& value,
-                 const std::string& help) {
-  const auto set = [&value](const double& seconds) {
-    value = std::chrono::milliseconds(static_cast<std::int64_t>(seconds * 1000));
-  };
-  app.add_option_function<double>(name, set, help)
-      ->check(CLI::Range(0.001, 86400.0))
-      ->default_str(fmt::format("{:g}", static_cast<double>(value.count()) / 1000))
-      ->type_name("SECONDS")
-      ->group("Limits");
-}
-
-void add_options(CLI::App& app, Options& options) {
-  app.add_option("--store", options.store, "folder with NAME.selvage packs")->required()->type_name("DIR");
-  app.add_option("--listen", options.listen, "address to listen on; port 0 picks a free one")
-      ->capture_default_str()
-      ->type_name("HOST:PORT");
-  app.add_option("--port-file", options.port_file, "write the port to this file once listening")
-      ->type_name("FILE");
-  app.add_option("--threads", options.threads, "network threads; 0: one for each processor")
-      ->capture_default_str();
-  app.add_flag("--verbose", options.verbose, "log every connection's end");
-
-  SessionLimits& session = options.limits.session;
-  app.add_option("--max-connections", options.limits.connections, "clients at a time")
-      ->capture_default_str()
-      ->group("Limits");
-  app.add_option("--max-requests", session.requests, "requests in flight for each client")
-      ->capture_default_str()
-      ->group("Limits");
-  app.add_option("--max-rate", session.bytes_per_second, "bytes a second for each client; 0: no limit")
-      ->capture_default_str()
-      ->type_name("BYTES")
-      ->group("Limits");
-  add_seconds(app, "--handshake-timeout", session.handshake_timeout, "for a client to say hello");
-  add_seconds(app, "--idle-timeout", session.idle_timeout, "for a client that says nothing");
-  add_seconds(app, "--write-timeout", session.write_timeout,
-              "for a client that takes nothing of what it asked for");
-  add_seconds(app, "--shutdown-grace", options.limits.shutdown_grace, "for requests in flight at the end");
-}
+/// How often we look for what changed in the store, to log it; clients see it at once in any case.
+constexpr std::chrono::seconds kWatchInterval{1};
 
 /// For whoever started us, a person or a script.
-Result<void> announce(const Options& options, const HostPort& address) {
+Result<void> announce(const ServerOptions& options, const HostPort& address) {
   fmt::print("listening on {}\n", address.to_string());
   std::fflush(stdout);
   if (options.port_file.empty()) return {};
@@ -94,34 +61,117 @@ Result<void> announce(const Options& options, const HostPort& address) {
   return replace_file(options.port_file, text);
 }
 
-/// Counts the signals that ask us to stop, and passes them on.
-class StopSignals {
+Result<std::shared_ptr<TlsContext>> load_tls(const ServerOptions& options) {
+  if (!options.is_encrypted()) return std::shared_ptr<TlsContext>();
+  return tls_server_context(options.tls);
+}
+
+Result<AccessTable> load_tokens(const ServerOptions& options) {
+  if (options.tokens.empty()) return AccessTable();
+  return AccessTable::read(options.tokens);
+}
+
+/// SIGHUP: what cannot be read leaves what is in force.
+void reload(const ServerOptions& options, AccessControl& access, Listener& listener) {
+  if (auto table = load_tokens(options)) {
+    log(LogLevel::Info, "tokens read again", {{"tokens", std::to_string(table->token_count())}});
+    access.replace(std::move(*table));
+  } else {
+    log(LogLevel::Error, "the tokens stay as they were: " + table.error().to_string());
+  }
+  if (auto tls = load_tls(options); !tls) {
+    log(LogLevel::Error, "the certificate stays as it was: " + tls.error().to_string());
+  } else if (*tls) {
+    listener.set_tls(std::move(*tls));
+    log(LogLevel::Info, "certificate read again");
+  }
+}
+
+/// Counts the signals that ask us to stop, and passes them on; SIGHUP calls `on_hangup`.
+class Signals {
  public:
   /// On the listener's strand: otherwise the listener could be gone, and cancel() over, before wait() comes
   /// round.
-  explicit StopSignals(Listener& listener)
-      : signals_(listener.executor(), SIGINT, SIGTERM), listener_(listener) {
+  Signals(Listener& listener, std::function<void()> on_hangup)
+      : signals_(listener.executor(), SIGINT, SIGTERM, SIGHUP),
+        listener_(listener),
+        on_hangup_(std::move(on_hangup)) {
     wait();
   }
-  int count() const { return count_; }
+  int stops() const { return stops_; }
   void cancel() { signals_.cancel(); }
 
  private:
   void wait() {
-    signals_.async_wait([this](const boost::system::error_code& error, int) {
+    signals_.async_wait([this](const boost::system::error_code& error, int signal) {
       if (error) return;
-      ++count_;
-      log(LogLevel::Info,
-          count_ == 1 ? "stopping; once more to cut off the requests in flight" : "cutting off");
-      listener_.shut_down();
+      if (signal == SIGHUP) {
+        on_hangup_();
+      } else {
+        stop();
+      }
       wait();
     });
   }
 
+  void stop() {
+    ++stops_;
+    log(LogLevel::Info,
+        stops_ == 1 ? "stopping; once more to cut off the requests in flight" : "cutting off");
+    listener_.shut_down();
+  }
+
   asio::signal_set signals_;
   Listener& listener_;
-  int count_ = 0;
+  const std::function<void()> on_hangup_;
+  std::atomic<int> stops_ = 0;
 };
+
+void log_event(const StoreEvent& event) {
+  switch (event.kind) {
+    case StoreEvent::Kind::Appeared:
+    case StoreEvent::Kind::Replaced:
+      return log(LogLevel::Info,
+                 event.kind == StoreEvent::Kind::Appeared ? "model appeared" : "model replaced",
+                 {{"model", event.model}, {"bytes", std::to_string(event.size_bytes)}});
+    case StoreEvent::Kind::Refused:
+      return log(LogLevel::Warning, "model refused", {{"model", event.model}, {"reason", event.reason}});
+    case StoreEvent::Kind::Gone:
+      return log(LogLevel::Info, "model gone", {{"model", event.model}});
+  }
+}
+
+/// Looks at the store now and then, so that what happens to it is logged and counted though nobody asks.
+void watch(PackStore& store, std::stop_token stop) {
+  std::mutex mutex;
+  std::condition_variable_any never;
+  std::unique_lock lock(mutex);
+  bool was_readable = true;
+  while (!stop.stop_requested()) {
+    const auto models = store.list();
+    if (!models && was_readable) log(LogLevel::Error, models.error().to_string());
+    was_readable = models.has_value();
+    never.wait_for(lock, stop, kWatchInterval, [] { return false; });
+  }
+}
+
+Result<std::unique_ptr<HealthServer>> start_health(const ServerOptions& options,
+                                                   const SessionServices& services, const Signals& signals) {
+  if (options.health.empty()) return std::unique_ptr<HealthServer>();
+  auto address = parse_host_port(options.health);
+  if (!address) return forward_error(address);
+  HealthPages pages;
+  pages.metrics = [&services] { return metrics_text(services); };
+  pages.readiness = [&services, &signals]() -> Result<void> {
+    if (signals.stops() > 0) return fail(ErrorCode::Unavailable, "shutting down");
+    auto models = services.store.list();
+    if (!models) return forward_error(models);
+    return {};
+  };
+  auto health = HealthServer::start(*address, std::move(pages));
+  if (health) log(LogLevel::Info, "health and metrics", {{"address", (*health)->address().to_string()}});
+  return health;
+}
 
 void run_on_threads(asio::io_context& io, unsigned threads) {
   std::vector<std::jthread> others;
@@ -129,19 +179,47 @@ void run_on_threads(asio::io_context& io, unsigned threads) {
   io.run();
 }
 
-Result<int> serve(const Options& options) {
+/// Encryption is the rule for whatever leaves this machine.
+Result<void> check_exposure(const ServerOptions& options, const Listener& listener) {
+  if (options.is_encrypted() || options.allow_plain || listener.is_on_loopback()) return {};
+  return fail(ErrorCode::InvalidArgument,
+              "--listen " + options.listen +
+                  ": other machines would be served unencrypted; give --cert and --key, or --allow-plain "
+                  "where the network can be trusted");
+}
+
+Result<int> serve(const ServerOptions& options) {
   auto address = parse_host_port(options.listen);
   if (!address) return forward_error(address, "--listen");
-  auto store = PackStore::open_folder(options.store);
+  auto store = PackStore::open_folder(options.store, {options.store_poll, log_event});
   if (!store) return forward_error(store, "--store");
+  auto tls = load_tls(options);
+  if (!tls) return forward_error(tls);
+  auto tokens = load_tokens(options);
+  if (!tokens) return forward_error(tokens, "--tokens");
 
   const unsigned threads =
       options.threads > 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency());
+  // What is used by what stands below it comes first, so that it goes last.
+  AccessControl access(std::move(*tokens));
+  ServerCounters counters;
   asio::io_context io(static_cast<int>(threads));
+  Publisher publisher(**store, counters, options.publish);
   asio::thread_pool workers(1);
-  auto listener = Listener::bind(io, *address, **store, workers.get_executor(), options.limits);
+  const SessionServices services{**store,
+                                 workers.get_executor(),
+                                 access,
+                                 counters,
+                                 &publisher,
+                                 options.limits.connections,
+                                 options.is_encrypted()};
+  auto listener = Listener::bind(io, *address, services, options.limits, std::move(*tls));
   if (!listener) return forward_error(listener);
-  StopSignals signals(**listener);
+  if (auto ok = check_exposure(options, **listener); !ok) return forward_error(ok);
+  Signals signals(**listener, [&] { reload(options, access, **listener); });
+  auto health = start_health(options, services, signals);
+  if (!health) return forward_error(health, "--health");
+  const std::jthread watcher([&](std::stop_token stop) { watch(**store, stop); });
   auto announced = announce(options, (*listener)->address());
   if (!announced) return forward_error(announced, "--port-file");
 
@@ -151,7 +229,7 @@ Result<int> serve(const Options& options) {
   });
   run_on_threads(io, threads);
   workers.join();
-  return signals.count() > 1 ? 130 : 0;
+  return signals.stops() > 1 ? 130 : 0;
 }
 
 }  // namespace
@@ -160,10 +238,11 @@ int main(int argc, char** argv) try {
   CLI::App app("Serves the selvage packs of a folder.", "selvage-server");
   app.set_version_flag("--version", SELVAGE_VERSION);
   app.footer(kExamples);
-  Options options;
+  ServerOptions options;
   add_options(app, options);
   CLI11_PARSE(app, argc, argv);
-  set_log_level(options.verbose ? LogLevel::Debug : LogLevel::Info);
+  set_log_level(options.log_level());
+  set_log_format(options.log_format);
   std::signal(SIGPIPE, SIG_IGN);
 
   const auto served = serve(options);

@@ -109,8 +109,9 @@ Result<IngestedModel> ingest(const TriangleSoup& soup, const IngestOptions& opti
   }
   const RepairedMesh mesh = clock.run("order", [&] { return spatially_ordered(std::move(*repaired)); });
   if (clock.is_cancelled()) return cancelled();
+  const SegmentOptions sized = with_streaming_sizes(options.segment, mesh.table.triangle_count());
   NamedSegmentation named =
-      clock.run("segment", [&] { return segment_model(mesh, options.parts, options.segment, parallel); });
+      clock.run("segment", [&] { return segment_model(mesh, options.parts, sized, parallel); });
   const Segmentation& segmentation = named.regions;
   if (clock.is_cancelled()) return cancelled();
   const Partition partition = clock.run("partition", [&] {

@@ -32,13 +32,12 @@ std::map<std::string, std::vector<RegionId>> name_regions(const Parts& parts,
 
 NamedSegmentation segment_model(const RepairedMesh& mesh, const Parts& parts, const SegmentOptions& options,
                                 const ParallelFor& parallel) {
-  const SegmentOptions sized = with_streaming_sizes(options, mesh.table.triangle_count());
-  if (parts.empty()) return {segment(mesh.table, mesh.positions, sized, parallel), {}};
+  if (parts.empty()) return {segment(mesh.table, mesh.positions, options, parallel), {}};
 
   const std::vector<std::uint32_t> part_of_vertex = parts_of_vertices(mesh, parts);
   NamedSegmentation result;
   result.regions = segment_parts(mesh.table, mesh.positions, part_of_vertex,
-                                 {.max_region_vertices = sized.max_region_vertices});
+                                 {.max_region_vertices = options.max_region_vertices});
   result.regions_of_name = name_regions(parts, parts_of_regions(result.regions, part_of_vertex));
   return result;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // A repaired mesh in, regions out: by shape (server/segment/segment.h) or by the user's own parts (parts.h).
-// What `build` encodes and what `segment` writes is the same.
+// What `build` encodes and what `segment --streaming` writes is the same.
 #pragma once
 
 #include <map>
@@ -21,8 +21,8 @@ struct NamedSegmentation {
   std::map<std::string, std::vector<RegionId>> regions_of_name;  ///< ascending; empty by shape
 };
 
-/// `mesh` is cut along the parts if they are by triangle. Large models get streaming sizes unless the options
-/// say otherwise; of parts only --max-region counts.
+/// `mesh` is cut along the parts if they are by triangle. Of the options, parts heed max_region_vertices
+/// only.
 NamedSegmentation segment_model(const RepairedMesh& mesh, const Parts& parts, const SegmentOptions& options,
                                 const ParallelFor& parallel);
 

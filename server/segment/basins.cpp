@@ -5,7 +5,6 @@
 
 #include "server/segment/erosion.h"
 #include "server/segment/gap_distance.h"
-#include "server/segment/one_ring.h"
 
 namespace selvage {
 namespace {
@@ -55,52 +54,52 @@ class FloodQueue {
   int current_ = 0;
 };
 
-/// The label of the lowest labelled neighbour, the first counter-clockwise of equally low ones.
-std::uint32_t lowest_label(const CornerTable& mesh, const std::vector<std::uint32_t>& label_of_vertex,
+/// The label of the lowest labelled neighbour, the first of equally low ones.
+std::uint32_t lowest_label(const Neighbours& neighbours, const std::vector<std::uint32_t>& label_of_vertex,
                            const std::vector<float>& height, VertexId v) {
   VertexId lowest = kNone;
-  for_each_neighbour(mesh, v, [&](VertexId u) {
+  for (VertexId u : neighbours[v]) {
     if (label_of_vertex[u] != kNone && (lowest == kNone || height[u] < height[lowest])) lowest = u;
-  });
+  }
   return label_of_vertex[lowest];
 }
 
-void flood(const CornerTable& mesh, const std::vector<float>& height,
+void flood(const Neighbours& neighbours, const std::vector<float>& height,
            std::vector<std::uint32_t>& label_of_vertex) {
   FloodQueue waiting;
-  std::vector<bool> is_queued(mesh.vertex_count(), false);
+  std::vector<bool> is_queued(neighbours.vertex_count(), false);
   const auto queue_unlabelled_neighbours = [&](VertexId v) {
-    for_each_neighbour(mesh, v, [&](VertexId u) {
-      if (label_of_vertex[u] != kNone || is_queued[u]) return;
+    for (VertexId u : neighbours[v]) {
+      if (label_of_vertex[u] != kNone || is_queued[u]) continue;
       is_queued[u] = true;
       waiting.push(u, height[u]);
-    });
+    }
   };
-  for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
+  for (VertexId v = 0; v < neighbours.vertex_count(); ++v) {
     if (label_of_vertex[v] != kNone) queue_unlabelled_neighbours(v);
   }
   waiting.drain([&](VertexId v) {
-    label_of_vertex[v] = lowest_label(mesh, label_of_vertex, height, v);
+    label_of_vertex[v] = lowest_label(neighbours, label_of_vertex, height, v);
     queue_unlabelled_neighbours(v);
   });
 }
 
 }  // namespace
 
-Minima flood_basins(const CornerTable& mesh, std::span<const Vec3> positions, const HeightField& field,
+Minima flood_basins(const Neighbours& neighbours, std::span<const Vec3> positions, const HeightField& field,
                     const BasinOptions& options) {
   const auto tau = static_cast<float>(options.plateau_depth), gap = static_cast<float>(options.gap);
-  std::vector<std::uint8_t> is_plateau(mesh.vertex_count());
-  for (VertexId v = 0; v < mesh.vertex_count(); ++v) is_plateau[v] = field.kappa[v] < -tau;
-  std::vector<float> height = distance_to_plateau(mesh, positions, is_plateau, field.radius, gap);
+  std::vector<std::uint8_t> is_plateau(neighbours.vertex_count());
+  for (VertexId v = 0; v < neighbours.vertex_count(); ++v) is_plateau[v] = field.kappa[v] < -tau;
+  std::vector<float> height = distance_to_plateau(neighbours, positions, is_plateau, field.radius, gap);
 
-  const Minima basins = label_minima(mesh, is_plateau);
-  Minima markers = label_minima(mesh, inverse(choose_markers(basins, height, gap)));
-  for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
+  const Minima basins = label_minima(neighbours, is_plateau);
+  Minima markers = label_minima(neighbours, inverse(choose_markers(basins, height, gap)));
+  for (VertexId v = 0; v < neighbours.vertex_count(); ++v) {
     height[v] = is_plateau[v] ? 1 - field.kappa[v] - tau : gap > 0 ? 1 - height[v] / gap : 0;
   }
-  flood(mesh, height, markers.label_of_vertex);
-  erode_plateau(mesh, markers);  // what no flood reached: components that are all plateau
+  flood(neighbours, height, markers.label_of_vertex);
+  erode_plateau(neighbours, markers);  // what no flood reached: components that are all plateau
   return markers;
 }
 

@@ -8,10 +8,10 @@
 #include <span>
 #include <vector>
 
-#include "common/mesh/corner_table.h"
 #include "common/mesh/vec3.h"
 #include "server/segment/height_field.h"
 #include "server/segment/minima.h"
+#include "server/segment/neighbours.h"
 
 namespace selvage {
 
@@ -29,7 +29,7 @@ struct BasinOptions {
 /// a vertex takes the label of its lowest labelled neighbour. A component that is all plateau is one basin.
 /// Without closing gaps no merging of the basins comes nearer to people than a Rand error of .113 to .144;
 /// with it, .045 to .06. Linear time.
-Minima flood_basins(const CornerTable& mesh, std::span<const Vec3> positions, const HeightField& field,
+Minima flood_basins(const Neighbours& neighbours, std::span<const Vec3> positions, const HeightField& field,
                     const BasinOptions& options);
 
 }  // namespace selvage

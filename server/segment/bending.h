@@ -4,9 +4,6 @@
 // (dissertation Def. 4.4) made independent of the sampling.
 #pragma once
 
-#include <optional>
-#include <span>
-
 #include "common/mesh/corner_table.h"
 #include "common/mesh/vec3.h"
 #include "server/segment/geodesic.h"
@@ -28,7 +25,7 @@ struct Bending {
 /// and mean and amplitude are the 0th and 2nd Fourier coefficients of q (Euler's formula for normal
 /// curvature). A direction that meets a mesh border before 0.3 radius takes the value of the opposite one, or
 /// 0. `outward` is -1 on a surface that faces inwards. Zero at border vertices. Needs a triangle at `v`.
-Bending measure_bending(const CornerTable& mesh, std::span<const Vec3> positions,
-                        const GeodesicTracer& tracer, VertexId v, double radius, double outward);
+Bending measure_bending(const CornerTable& mesh, const GeodesicTracer& tracer, VertexId v, double radius,
+                        double outward, GeodesicTracer::Scratch& scratch);
 
 }  // namespace selvage

@@ -13,7 +13,7 @@ namespace selvage {
 /// on `count` alone, never on the number of threads.
 template <class Body>
 void for_each_chunk(const ParallelFor& parallel, std::size_t count, const Body& body) {
-  constexpr std::size_t kMaxChunks = 32, kMinChunk = 1024;
+  constexpr std::size_t kMaxChunks = 32, kMinChunk = 256;
   const std::size_t chunks = std::clamp<std::size_t>(count / kMinChunk, 1, kMaxChunks);
   parallel(chunks, [&](std::size_t i) { body(count * i / chunks, count * (i + 1) / chunks); });
 }

@@ -22,8 +22,9 @@ Features features_of(const CornerTable& mesh, std::span<const Vec3> positions, i
 }
 
 Minima basins_of(const CornerTable& mesh, const Features& features, const PlateauThresholds& thresholds) {
-  Minima basins = label_minima(mesh, find_plateau(features, thresholds));
-  erode_plateau(mesh, basins);
+  const Neighbours neighbours(mesh);
+  Minima basins = label_minima(neighbours, find_plateau(features, thresholds));
+  erode_plateau(neighbours, basins);
   return basins;
 }
 

@@ -7,19 +7,17 @@
 #include <span>
 #include <vector>
 
-#include "server/segment/one_ring.h"
-
 namespace selvage {
 namespace {
 
 /// Cuts one region after another, sharing arrays the size of the mesh.
 class Cutter {
  public:
-  Cutter(const CornerTable& mesh, Minima& labels)
-      : mesh_(mesh),
+  Cutter(const Neighbours& neighbours, Minima& labels)
+      : neighbours_(neighbours),
         labels_(labels),
         region_of_vertex_(labels.label_of_vertex),
-        distance_(mesh.vertex_count(), kNone) {}
+        distance_(neighbours.vertex_count(), kNone) {}
 
   void cut(std::span<const VertexId> region, std::uint32_t pieces) {
     add_seed(region.front(), labels_.label_of_vertex[region.front()]);
@@ -42,12 +40,12 @@ class Cutter {
     queue_.assign(1, seed);
     for (std::size_t at = 0; at < queue_.size(); ++at) {
       const std::uint32_t step = distance_[queue_[at]] + 1;
-      for_each_neighbour(mesh_, queue_[at], [&](VertexId u) {
-        if (region_of_vertex_[u] != region_of_vertex_[seed] || distance_[u] <= step) return;
+      for (VertexId u : neighbours_[queue_[at]]) {
+        if (region_of_vertex_[u] != region_of_vertex_[seed] || distance_[u] <= step) continue;
         distance_[u] = step;
         labels_.label_of_vertex[u] = label;
         queue_.push_back(u);
-      });
+      }
     }
   }
 
@@ -73,7 +71,7 @@ class Cutter {
     return kNone;
   }
 
-  const CornerTable& mesh_;
+  const Neighbours& neighbours_;
   Minima& labels_;
   const std::vector<std::uint32_t> region_of_vertex_;  // before any cut
   std::vector<std::uint32_t> distance_;                // in edges, to the nearest seed of the region
@@ -83,7 +81,7 @@ class Cutter {
 
 }  // namespace
 
-void cut_large_regions(const CornerTable& mesh, Minima& labels, std::uint32_t max_vertices) {
+void cut_large_regions(const Neighbours& neighbours, Minima& labels, std::uint32_t max_vertices) {
   std::vector<std::uint32_t> begin(labels.count + 1, 0);
   for (std::uint32_t label : labels.label_of_vertex) ++begin[label + 1];
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
@@ -91,8 +89,8 @@ void cut_large_regions(const CornerTable& mesh, Minima& labels, std::uint32_t ma
   std::vector<std::uint32_t> fill(begin.begin(), begin.end() - 1);
   for (VertexId v = 0; v < vertices.size(); ++v) vertices[fill[labels.label_of_vertex[v]]++] = v;
 
-  Cutter cutter(mesh, labels);
-  const double piece_size = std::max(1.0, 0.75 * max_vertices);
+  Cutter cutter(neighbours, labels);
+  const double piece_size = std::max(1.0, 0.9 * max_vertices);
   for (std::size_t label = 0; label + 1 < begin.size(); ++label) {
     const std::uint32_t size = begin[label + 1] - begin[label];
     if (size <= max_vertices) continue;

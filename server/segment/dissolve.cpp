@@ -43,6 +43,18 @@ std::uint32_t label_of_only_fan(const CornerTable& mesh, const Pieces& pieces,
   return fan_starts <= 1 ? label : kNone;  // no start at all: the whole closed fan is kept
 }
 
+/// Flags for the vertices of triangles that no piece keeps: elsewhere one piece surrounds a vertex.
+std::vector<std::uint8_t> find_rim(const CornerTable& mesh, const Pieces& pieces,
+                                   const std::vector<std::uint32_t>& label_of_piece) {
+  std::vector<std::uint8_t> is_rim(mesh.vertex_count(), 0);
+  for (TriangleId t = 0; t < mesh.triangle_count(); ++t) {
+    const std::uint32_t piece = pieces.of_triangle[t];
+    if (piece != kNone && label_of_piece[piece] != kNone) continue;
+    for (VertexId v : mesh.triangle(t)) is_rim[v] = 1;
+  }
+  return is_rim;
+}
+
 /// Counts votes for labels and forgets them in time proportional to the votes.
 class Ballot {
  public:
@@ -68,14 +80,17 @@ class Ballot {
 
 }  // namespace
 
-bool dissolve_crumbs(const CornerTable& mesh, std::vector<std::uint32_t>& label_of_vertex,
-                     std::uint32_t& label_count, std::uint32_t min_piece_triangles) {
-  const Pieces pieces = find_pieces(mesh, label_of_vertex, kNone);
+bool dissolve_crumbs(const CornerTable& mesh, const Pieces& pieces, std::uint32_t min_piece_triangles,
+                     std::vector<std::uint32_t>& label_of_vertex, std::uint32_t& label_count) {
   const std::vector<std::uint32_t> label_of_piece = choose_labels(pieces, label_count, min_piece_triangles);
+  const std::vector<std::uint8_t> is_rim = find_rim(mesh, pieces, label_of_piece);
   bool has_changed = false;
   std::vector<VertexId> crumbs;
   for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
-    const std::uint32_t label = label_of_only_fan(mesh, pieces, label_of_piece, v);
+    const CornerId corner = mesh.corner_of_vertex[v];
+    if (corner == kNone) continue;
+    const std::uint32_t label = is_rim[v] ? label_of_only_fan(mesh, pieces, label_of_piece, v)
+                                          : label_of_piece[pieces.of_triangle[triangle_of(corner)]];
     if (label == kNone) {
       crumbs.push_back(v);
     } else if (label != label_of_vertex[v]) {

@@ -6,15 +6,15 @@
 
 #include <cstdint>
 
-#include "common/mesh/corner_table.h"
 #include "server/segment/minima.h"
+#include "server/segment/neighbours.h"
 
 namespace selvage {
 
 /// Gives every vertex a label. The table may push a vertex twice and does not say which label wins; here a
-/// vertex is labelled when it is pushed, by the first labelled neighbour counter-clockwise in the first
-/// step and by whichever front reaches it first after that. A component that is all plateau becomes one
-/// region with a new label, counted in `minima.count`. Linear time.
-void erode_plateau(const CornerTable& mesh, Minima& minima);
+/// vertex is labelled when it is pushed, by its first labelled neighbour in the first step and by whichever
+/// front reaches it first after that. A component that is all plateau becomes one region with a new label,
+/// counted in `minima.count`. Linear time.
+void erode_plateau(const Neighbours& neighbours, Minima& minima);
 
 }  // namespace selvage

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "server/segment/one_ring.h"
-
 namespace selvage {
 namespace {
 
@@ -41,28 +39,28 @@ class DistanceBuckets {
 
 }  // namespace
 
-std::vector<float> distance_to_plateau(const CornerTable& mesh, std::span<const Vec3> positions,
+std::vector<float> distance_to_plateau(const Neighbours& neighbours, std::span<const Vec3> positions,
                                        std::span<const std::uint8_t> is_plateau,
                                        std::span<const float> radius, float reach) {
-  std::vector<float> distance(mesh.vertex_count(), reach);
+  std::vector<float> distance(neighbours.vertex_count(), reach);
   if (!(reach > 0)) return distance;
   DistanceBuckets waiting(reach);
-  for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
+  for (VertexId v = 0; v < neighbours.vertex_count(); ++v) {
     if (!is_plateau[v]) continue;
     distance[v] = 0;
     waiting.push(v, 0);
   }
   waiting.drain([&](VertexId v, float reached) {
     if (reached > distance[v]) return;  // a shorter way was found since
-    for_each_neighbour(mesh, v, [&](VertexId u) {
-      if (is_plateau[u]) return;
+    for (VertexId u : neighbours[v]) {
+      if (is_plateau[u]) continue;
       const float mean_radius = 0.5f * (radius[u] + radius[v]);
       const auto edge = static_cast<float>(length(positions[u] - positions[v]));
       const float candidate = reached + (mean_radius > 0 ? edge / mean_radius : 0);
-      if (candidate >= distance[u]) return;
+      if (candidate >= distance[u]) continue;
       distance[u] = candidate;
       waiting.push(u, candidate);
-    });
+    }
   });
   return distance;
 }

@@ -8,14 +8,14 @@
 #include <span>
 #include <vector>
 
-#include "common/mesh/corner_table.h"
 #include "common/mesh/vec3.h"
+#include "server/segment/neighbours.h"
 
 namespace selvage {
 
 /// By vertex: the shortest way along edges to a plateau vertex, each edge's length divided by the mean
 /// `radius` of its ends (both in model units); `reach` where it is farther. Dijkstra's algorithm in buckets.
-std::vector<float> distance_to_plateau(const CornerTable& mesh, std::span<const Vec3> positions,
+std::vector<float> distance_to_plateau(const Neighbours& neighbours, std::span<const Vec3> positions,
                                        std::span<const std::uint8_t> is_plateau,
                                        std::span<const float> radius, float reach);
 

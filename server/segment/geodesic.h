@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: MIT
 //
-// Straightest geodesics: from a vertex straight on over the surface, triangle after triangle unfolded into
-// the plane of the first.
+// Straightest geodesics: from a vertex straight on over the surface, triangle after triangle unfolded into a
+// plane that is turned so that the line is its x axis.
 //
-//                 C          The line leaves (third, a, b) through the edge a-b. C, the next triangle's apex,
-//                 is
-//               /   \        placed in the plane from its coordinates relative to that edge. If C lies left
-//               of the
-//         b ---+-----+- a    line, it leaves through a-C, otherwise through C-b.
-//           \     |    /
-//            \    |   /
-//              third
+// clang-format off
+//            b             The line enters a triangle through the edge from a, on its right, to b, on its left.
+//           / \            The apex is placed in the plane from its coordinates relative to that edge. If it lies
+//     -----/---\--->       left of the line, the line leaves between a and the apex, otherwise between the apex
+//         /   apex         and b.
+//        a---/
+// clang-format on
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "common/base/parallel.h"
 #include "common/mesh/corner_table.h"
 #include "common/mesh/vec3.h"
 
@@ -23,33 +24,54 @@ namespace selvage {
 
 /// Where a geodesic ended.
 struct GeodesicEnd {
-  Vec3 point;  ///< on the surface
-  double length =
-      0;  ///< walked; less than asked for if a mesh border, or a limit of 1024 triangles, came first
+  Vec3 way;  ///< from the start to the end, which lies on the surface
+  /// Walked; less than asked for if a mesh border, or a limit of 1024 triangles, came first.
+  double length = 0;
 };
 
-/// Holds, for every corner, what lies beyond the edge it faces: 12 bytes a corner. Thread-safe.
+/// Holds, for every corner, what a line needs to know that enters the corner's triangle through the edge it
+/// faces: 16 bytes a corner. Thread-safe.
 class GeodesicTracer {
  public:
-  /// Both must outlive the tracer.
-  GeodesicTracer(const CornerTable& mesh, std::span<const Vec3> positions);
+  /// Memory to use again from vertex to vertex.
+  struct Scratch;
 
-  /// Walks `length` (model units) from the vertex of corner `start` into its triangle, `angle` radians
-  /// counter-clockwise of the edge to the next corner, 0 <= angle <= the corner's angle.
-  GeodesicEnd trace(CornerId start, double angle, double length) const;
+  /// Both must outlive the tracer.
+  GeodesicTracer(const CornerTable& mesh, std::span<const Vec3> positions, const ParallelFor& parallel);
+
+  /// Walks `length` (model units) from `v`, which has triangles, in n = ends.size() directions: with Theta
+  /// the angle of all triangles at v, the j-th is at (j + 1/2) Theta / n counter-clockwise of the edge from
+  /// corner_of_vertex[v] to its next corner. All lines advance together, which hides the time that each step
+  /// of one waits for the step before.
+  void shoot(VertexId v, double length, Scratch& scratch, std::span<GeodesicEnd> ends) const;
 
  private:
-  /// The opposite corner, and its place in the frame whose origin is the far end of the edge
-  /// (vertex(prev(c))) and whose unit and x axis is the edge back to vertex(next(c)); it lies on the side of
-  /// positive y.
-  struct Beyond {
-    CornerId corner = kNone;
-    float x = 0, y = 0;
+  struct Entry {
+    /// The apex in the frame whose origin is the edge's left end (vertex(next(c))), and whose unit and x axis
+    /// is the edge to its right end; it lies on the side of positive y.
+    float x, y;
+    CornerId on_left, on_right;  ///< which corner a line enters next that has the apex there
   };
+  class Lines;
+
+  Entry make_entry(CornerId c) const;
 
   const CornerTable& mesh_;
   std::span<const Vec3> positions_;
-  std::vector<Beyond> beyond_corner_;  // together, since a step of a walk needs all of it and nothing else
+  std::unique_ptr<Entry[]> entry_of_corner_;
+};
+
+/// One of the triangles at the start, laid into the plane with the start at 0 and its next corner on the x
+/// axis.
+struct UnfoldedAtStart {
+  CornerId corner = kNone;
+  double end_angle = 0;  ///< radians, all triangles before it included
+  double next_x = 0;     ///< model units
+  double prev_x = 0, prev_y = 0;
+};
+
+struct GeodesicTracer::Scratch {
+  std::vector<UnfoldedAtStart> fan;
 };
 
 }  // namespace selvage

@@ -14,13 +14,14 @@
 #include "common/mesh/corner_table.h"
 #include "common/mesh/vec3.h"
 #include "server/segment/components.h"
+#include "server/segment/neighbours.h"
 #include "server/segment/vertex_measures.h"
 
 namespace selvage {
 
 struct HeightFieldOptions {
   double radius_share = 0.04;  ///< rho: radius as a share of the square root of the component's area
-  /// Distance between samples as a share of the radius, rounded down to whole edges; 0: every vertex. Half as
+  /// Distance between samples as a share of the radius, in whole edges; 0: every vertex. Half as
   /// dense costs .001 of Rand error on the benchmark, twice as dense gains nothing.
   double sample_spacing = 0.34;
   /// Sharp convex edges separate too: kappa becomes min(kappa, -0.5 * greatest bending). For CAD parts.
@@ -34,9 +35,9 @@ struct HeightField {
 };
 
 /// Measures bending at samples, in parallel, and spreads it to all vertices.
-HeightField measure_height(const CornerTable& mesh, std::span<const Vec3> positions,
-                           const Components& components, std::span<const ComponentShape> shapes,
-                           const VertexMeasures& measures, const HeightFieldOptions& options,
-                           const ParallelFor& parallel);
+HeightField measure_height(const CornerTable& mesh, const Neighbours& neighbours,
+                           std::span<const Vec3> positions, const Components& components,
+                           std::span<const ComponentShape> shapes, const VertexMeasures& measures,
+                           const HeightFieldOptions& options, const ParallelFor& parallel);
 
 }  // namespace selvage

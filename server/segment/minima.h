@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "common/mesh/corner_table.h"
+#include "server/segment/neighbours.h"
 
 namespace selvage {
 
@@ -18,6 +18,6 @@ struct Minima {
 };
 
 /// Linear time. `is_plateau` has a flag a vertex.
-Minima label_minima(const CornerTable& mesh, std::span<const std::uint8_t> is_plateau);
+Minima label_minima(const Neighbours& neighbours, std::span<const std::uint8_t> is_plateau);
 
 }  // namespace selvage

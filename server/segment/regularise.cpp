@@ -99,12 +99,12 @@ Segmentation regularise(const CornerTable& mesh, std::span<const std::uint32_t> 
   DenseLabels labels = make_dense(label_of_vertex);
   make_dust_whole(components, group_of_component, labels);
 
+  Pieces pieces = find_pieces(mesh, labels.of_vertex, kNone);
   for (int round = 0; round < options.max_rounds; ++round) {
-    if (!dissolve_crumbs(mesh, labels.of_vertex, labels.count, options.min_piece_triangles)) break;
+    if (!dissolve_crumbs(mesh, pieces, options.min_piece_triangles, labels.of_vertex, labels.count)) break;
+    pieces = find_pieces(mesh, labels.of_vertex, kNone);
   }
-  loosen_misfits(mesh, labels.of_vertex);
-
-  const Pieces pieces = find_pieces(mesh, labels.of_vertex, kNone);
+  if (loosen_misfits(mesh, labels.of_vertex) > 0) pieces = find_pieces(mesh, labels.of_vertex, kNone);
   return number_regions(pieces_of_vertices(mesh, pieces), pieces.count(), components, group_of_component);
 }
 

@@ -8,19 +8,26 @@
 #include <span>
 #include <vector>
 
+#include "common/base/parallel.h"
 #include "common/mesh/corner_table.h"
+#include "server/segment/neighbours.h"
 
 namespace selvage {
 
-/// Chooses vertices such that every vertex not on the border is within `spacing_of_vertex[s] - 1` edges of a
-/// chosen s. Spacing is in edges, >= 1; a vertex of spacing 1 is always chosen. Ascending; depends on the
-/// vertex order.
-std::vector<VertexId> choose_samples(const CornerTable& mesh,
-                                     std::span<const std::uint8_t> spacing_of_vertex);
+struct Samples {
+  std::vector<VertexId> vertices;           ///< ascending
+  std::vector<VertexId> nearest_of_vertex;  ///< a near sample; kNone only at the border
+};
 
-/// Fills in the values between `samples`: first each vertex takes the nearest sample's (breadth first), then
-/// `sweeps` times the mean of its neighbours and itself, in place in that same order; samples keep theirs.
-void spread_from_samples(const CornerTable& mesh, std::span<const VertexId> samples, int sweeps,
-                         std::span<float> value_of_vertex);
+/// Chooses vertices such that every vertex not on the border is within `spacing_of_vertex[s] - 1` edges of a
+/// chosen s. Spacing is in edges, 1 to 255; a vertex of spacing 1 is always chosen. Depends on the vertex
+/// order, and runs in parallel only if that keeps neighbours together (server/ingest/spatial_order.h).
+Samples choose_samples(const CornerTable& mesh, const Neighbours& neighbours,
+                       std::span<const std::uint8_t> spacing_of_vertex, const ParallelFor& parallel);
+
+/// Fills in the values between samples: first each vertex takes its nearest sample's, then `sweeps` times the
+/// mean of its neighbours and itself; samples keep theirs.
+void spread_from_samples(const Neighbours& neighbours, const Samples& samples, int sweeps,
+                         std::vector<float>& value_of_vertex, const ParallelFor& parallel);
 
 }  // namespace selvage

@@ -44,18 +44,22 @@ std::vector<std::uint32_t> label_vertices(const CornerTable& mesh, std::span<con
       break;
   }
   const XmrgOptions xmrg = xmrg_options(options);
-  return xmrg_labels(mesh, grow_xmrg_hierarchy(mesh, positions, xmrg, parallel), xmrg);
+  const Neighbours neighbours(mesh);
+  return xmrg_labels(neighbours, grow_xmrg_hierarchy(mesh, neighbours, positions, xmrg, parallel), xmrg);
 }
 
 }  // namespace
 
 SegmentOptions with_streaming_sizes(SegmentOptions options, std::uint32_t triangle_count) {
-  constexpr std::uint32_t kSmallModel = 20000, kMinVertices = 256, kMaxVertices = 4096;
+  constexpr std::uint32_t kSmallModel = 20000, kMinVertices = 384, kMaxVertices = 4096;
   const bool has_sizes = options.mode == SegmentMode::Xmrg || options.mode == SegmentMode::Cad;
   if (triangle_count <= kSmallModel || !has_sizes || options.target_regions > 0) return options;
   std::uint32_t& least = options.min_region_vertices;
   std::uint32_t& most = options.max_region_vertices;
   if (least == 0) least = most == 0 ? kMinVertices : std::min(kMinVertices, std::max(1u, most / 4));
+  constexpr double kStopSaliency = 0.2;  // a little above the default: fewer borders, which cost bytes
+  options.stop_saliency = std::max(options.stop_saliency, kStopSaliency);
+  options.smooth = true;
   if (most == 0) most = std::max(kMaxVertices, least <= kNone / 4 ? 4 * least : kNone);
   return options;
 }

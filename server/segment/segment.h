@@ -52,9 +52,10 @@ struct SegmentOptions {
       regularise;  ///< min_component_vertices 0: min_region_vertices or its usual value, 256 at most
 };
 
-/// The options with regions sized for streaming on models of more than 20,000 triangles: 256 to 4096 vertices
-/// where the options do not say otherwise; one that they say sets bounds to the other. Smaller models stay as
-/// they are, as do options that ask for a number of regions, and modes that do not know sizes.
+/// The options with regions sized for streaming on models of more than 20,000 triangles: 384 to 4096 vertices
+/// where the options do not say otherwise, one that they say setting bounds to the other, and smooth borders.
+/// Smaller models stay as they are, as do options that ask for a number of regions, and modes that do not
+/// know sizes.
 SegmentOptions with_streaming_sizes(SegmentOptions options, std::uint32_t triangle_count);
 
 /// Segments the mesh. `positions` has a finite point a vertex. The result is always codable (regularise.h)

@@ -58,7 +58,7 @@ Segmentation segment_parts(const CornerTable& mesh, std::span<const Vec3> positi
   const RegulariseOptions options{.min_component_vertices = sizes.min_component_vertices};
   Minima labels = connected_parts(mesh, part_of_vertex);
   const std::vector<std::uint32_t> uncut = labels.label_of_vertex;
-  if (sizes.max_region_vertices > 0) cut_large_regions(mesh, labels, sizes.max_region_vertices);
+  if (sizes.max_region_vertices > 0) cut_large_regions(Neighbours(mesh), labels, sizes.max_region_vertices);
   Segmentation segmentation = regularise(mesh, labels.label_of_vertex, options, positions, part_of_vertex);
   if (segmentation.loose_vertex_count > 0 &&
       heal_lost_triangles(mesh, segmentation, uncut, labels.label_of_vertex)) {

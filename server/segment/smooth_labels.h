@@ -6,8 +6,8 @@
 
 #include <span>
 
-#include "common/mesh/corner_table.h"
 #include "server/segment/minima.h"
+#include "server/segment/neighbours.h"
 
 namespace selvage {
 
@@ -17,6 +17,6 @@ namespace selvage {
 ///   kappa_w) / 2),
 /// then take the label with the greatest share, the lower of equal ones. Small effect: boundary triangles -3
 /// %.
-void smooth_labels(const CornerTable& mesh, std::span<const float> kappa, Minima& labels);
+void smooth_labels(const Neighbours& neighbours, std::span<const float> kappa, Minima& labels);
 
 }  // namespace selvage

@@ -14,6 +14,7 @@
 #include "server/segment/basins.h"
 #include "server/segment/height_field.h"
 #include "server/segment/hierarchy.h"
+#include "server/segment/neighbours.h"
 
 namespace selvage {
 
@@ -33,12 +34,13 @@ struct XmrgHierarchy {
   RegionHierarchy regions;
 };
 
-XmrgHierarchy grow_xmrg_hierarchy(const CornerTable& mesh, std::span<const Vec3> positions,
-                                  const XmrgOptions& options, const ParallelFor& parallel);
+XmrgHierarchy grow_xmrg_hierarchy(const CornerTable& mesh, const Neighbours& neighbours,
+                                  std::span<const Vec3> positions, const XmrgOptions& options,
+                                  const ParallelFor& parallel);
 
 /// Labels by vertex, not yet codable: the hierarchy cut at the wanted place, large regions cut, borders
 /// smoothed.
-std::vector<std::uint32_t> xmrg_labels(const CornerTable& mesh, const XmrgHierarchy& hierarchy,
+std::vector<std::uint32_t> xmrg_labels(const Neighbours& neighbours, const XmrgHierarchy& hierarchy,
                                        const XmrgOptions& options);
 
 }  // namespace selvage

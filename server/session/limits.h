@@ -26,6 +26,7 @@ struct SessionLimits {
 
 struct ServerLimits {
   std::uint32_t connections = 4096;                  ///< at a time; more are told so and closed
+  std::uint32_t connections_per_address = 1024;      ///< the same for each address (IPv6: its first 64 bits)
   std::chrono::milliseconds shutdown_grace{10'000};  ///< for requests in flight, then they are cut off
   SessionLimits session;
 };

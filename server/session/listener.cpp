@@ -20,10 +20,20 @@ using boost::system::error_code;
 /// After an accept that failed for want of descriptors or memory: others must end first.
 constexpr std::chrono::milliseconds kAcceptPause{50};
 
+/// What connections are counted by. An IPv6 client often has a whole /64 to itself.
+std::string counted_address(const tcp::socket& socket) {
+  error_code ignored;
+  const auto address = socket.remote_endpoint(ignored).address();
+  if (!address.is_v6() || address.to_v6().is_v4_mapped()) return address.to_string();
+  const auto bytes = address.to_v6().to_bytes();
+  return std::string(bytes.begin(), bytes.begin() + 8);
+}
+
 /// Tells a client that there is no room. A few bytes always fit a fresh socket; whether they arrive is its
-/// luck.
-void turn_away(tcp::socket socket) {
-  const Error error{ErrorCode::Unavailable, "the server is at its limit of connections"};
+/// luck. (Over TLS it sees the connection end.)
+void turn_away(tcp::socket socket, const char* why, bool is_plain) {
+  if (!is_plain) return;
+  const Error error{ErrorCode::Unavailable, why};
   const auto frame = to_frame(ErrorMessage{error, true}, 0);
   error_code ignored;
   socket.non_blocking(true, ignored);
@@ -31,35 +41,43 @@ void turn_away(tcp::socket socket) {
   socket.shutdown(tcp::socket::shutdown_send, ignored);
 }
 
-void log_end(const Session& session) {
-  if (!session.reason()) return log(LogLevel::Debug, session.peer() + " left");
-  log(LogLevel::Info, session.peer() + " dropped: " + session.reason()->to_string());
+LogFields fields_of(const Session& session) {
+  return {{"connection", std::to_string(session.number())}, {"peer", session.peer()}};
 }
 
-void log_exception(const std::string& peer, std::exception_ptr thrown) {
+void log_end(const Session& session) {
+  LogFields fields = fields_of(session);
+  if (!session.reason()) return log(LogLevel::Debug, "left", fields);
+  fields.emplace_back("reason", session.reason()->to_string());
+  log(LogLevel::Info, "dropped", fields);
+}
+
+void log_exception(const Session& session, std::exception_ptr thrown) {
   try {
     std::rethrow_exception(thrown);
   } catch (const std::exception& exception) {
-    log(LogLevel::Error, peer + " dropped: " + exception.what());
+    LogFields fields = fields_of(session);
+    fields.emplace_back("reason", exception.what());
+    log(LogLevel::Error, "dropped", fields);
   }
 }
 
 }  // namespace
 
-Listener::Listener(asio::io_context& io, PackStore& store, asio::any_io_executor workers,
-                   const ServerLimits& limits)
+Listener::Listener(asio::io_context& io, const SessionServices& services, const ServerLimits& limits,
+                   std::shared_ptr<TlsContext> tls)
     : io_(io),
-      store_(store),
-      workers_(std::move(workers)),
+      services_(services),
       limits_(limits),
       strand_(asio::make_strand(io)),
       acceptor_(strand_),
+      tls_(std::move(tls)),
       changed_(strand_),
       grace_(strand_) {}
 
 Result<std::unique_ptr<Listener>> Listener::bind(asio::io_context& io, const HostPort& address,
-                                                 PackStore& store, asio::any_io_executor workers,
-                                                 const ServerLimits& limits) {
+                                                 const SessionServices& services, const ServerLimits& limits,
+                                                 std::shared_ptr<TlsContext> tls) {
   std::signal(SIGPIPE, SIG_IGN);  // what is sent from files has no other way to say that the client has gone
   error_code error;
   tcp::resolver resolver(io);
@@ -68,7 +86,7 @@ Result<std::unique_ptr<Listener>> Listener::bind(asio::io_context& io, const Hos
   if (error) return fail(ErrorCode::InvalidArgument, "no such host: " + address.host);
   const tcp::endpoint endpoint = found.begin()->endpoint();
 
-  std::unique_ptr<Listener> listener(new Listener(io, store, std::move(workers), limits));
+  std::unique_ptr<Listener> listener(new Listener(io, services, limits, std::move(tls)));
   tcp::acceptor& acceptor = listener->acceptor_;
   acceptor.open(endpoint.protocol(), error);
   if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);
@@ -84,6 +102,15 @@ HostPort Listener::address() const {
   error_code ignored;
   const tcp::endpoint local = acceptor_.local_endpoint(ignored);
   return {local.address().to_string(), local.port()};
+}
+
+bool Listener::is_on_loopback() const {
+  error_code ignored;
+  return acceptor_.local_endpoint(ignored).address().is_loopback();
+}
+
+void Listener::set_tls(std::shared_ptr<TlsContext> tls) {
+  asio::post(strand_, [this, fresh = std::move(tls)]() mutable { tls_ = std::move(fresh); });
 }
 
 asio::awaitable<void> Listener::run() {
@@ -106,15 +133,25 @@ asio::awaitable<void> Listener::accept_loop() {
 }
 
 void Listener::admit(Socket socket) {
-  if (clients_.size() >= limits_.connections) return turn_away(std::move(socket));
+  const std::string address = counted_address(socket);
+  const bool is_full = clients_.size() >= limits_.connections;
+  const auto known = connections_of_.find(address);
+  if (is_full || (known != connections_of_.end() && known->second >= limits_.connections_per_address)) {
+    ++services_.counters.connections_refused;
+    return turn_away(std::move(socket),
+                     is_full ? "the server is at its limit of connections"
+                             : "the server is at its limit of connections from one address",
+                     tls_ == nullptr);
+  }
   const asio::any_io_executor executor = socket.get_executor();
-  auto session =
-      std::make_shared<Session>(make_tcp_stream(std::move(socket)), store_, workers_, limits_.session);
-  clients_.push_back({executor, std::move(session)});
+  auto stream = tls_ ? make_tls_stream(std::move(socket), tls_) : make_tcp_stream(std::move(socket));
+  auto session = std::make_shared<Session>(std::move(stream), services_, limits_.session);
+  ++connections_of_[address];
+  clients_.push_back({executor, std::move(session), address});
   const auto client = std::prev(clients_.end());
   auto on_end = [this, client](std::exception_ptr thrown) {
     if (thrown) {
-      log_exception(client->session->peer(), thrown);
+      log_exception(*client->session, thrown);
     } else {
       log_end(*client->session);
     }
@@ -124,6 +161,8 @@ void Listener::admit(Socket socket) {
 }
 
 void Listener::ended(std::list<Client>::iterator client) {
+  const auto counted = connections_of_.find(client->address);
+  if (--counted->second == 0) connections_of_.erase(counted);
   clients_.erase(client);
   changed_.notify();
 }

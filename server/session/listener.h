@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <list>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -15,22 +16,27 @@
 #include "common/net/deadline.h"
 #include "common/net/signal.h"
 #include "common/net/tcp_stream.h"
+#include "common/net/tls.h"
 #include "server/session/limits.h"
 #include "server/session/session.h"
-#include "server/store/pack_store.h"
 
 namespace selvage {
 
 /// `io` may be run by several threads: each session has a strand of its own, and what all share is behind the
-/// listener's. `store` and `workers` outlive it, and it outlives the run of `io`.
+/// listener's. What `services` names outlives it, and it outlives the run of `io`.
 class Listener {
  public:
-  /// Unavailable or InvalidArgument if that address cannot be listened on; port 0 picks a free one.
+  /// Unavailable or InvalidArgument if that address cannot be listened on; port 0 picks a free one. Without
+  /// `tls` connections are plain.
   static Result<std::unique_ptr<Listener>> bind(asio::io_context& io, const HostPort& address,
-                                                PackStore& store, asio::any_io_executor workers,
-                                                const ServerLimits& limits);
+                                                const SessionServices& services, const ServerLimits& limits,
+                                                std::shared_ptr<TlsContext> tls = nullptr);
 
-  HostPort address() const;  ///< with the port that was picked
+  HostPort address() const;     ///< with the port that was picked
+  bool is_on_loopback() const;  ///< only this machine can connect
+
+  /// For the connections to come. From any thread.
+  void set_tls(std::shared_ptr<TlsContext> tls);
 
   /// Accepts until shut down, then lets sessions finish within the grace and cuts off the rest. Returns when
   /// none is left. Spawn it on executor().
@@ -47,9 +53,11 @@ class Listener {
   struct Client {
     asio::any_io_executor executor;  ///< the session's strand
     std::shared_ptr<Session> session;
+    std::string address;  ///< as counted
   };
 
-  Listener(asio::io_context& io, PackStore& store, asio::any_io_executor workers, const ServerLimits& limits);
+  Listener(asio::io_context& io, const SessionServices& services, const ServerLimits& limits,
+           std::shared_ptr<TlsContext> tls);
   asio::awaitable<void> accept_loop();
   asio::awaitable<void> drain();
   asio::awaitable<void> all_gone();
@@ -58,14 +66,15 @@ class Listener {
   void tell_all(void (Session::*what)());
 
   asio::io_context& io_;
-  PackStore& store_;
-  asio::any_io_executor workers_;
+  const SessionServices services_;
   const ServerLimits limits_;
 
   Strand strand_;  ///< guards all below
   asio::ip::tcp::acceptor acceptor_;
+  std::shared_ptr<TlsContext> tls_;
   std::list<Client> clients_;
-  Signal changed_;  ///< a client left, or shut_down() was called
+  std::map<std::string, std::uint32_t> connections_of_;  ///< by address
+  Signal changed_;                                       ///< a client left, or shut_down() was called
   Deadline grace_;
   bool shutting_down_ = false;
 };

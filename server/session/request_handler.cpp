@@ -2,6 +2,7 @@
 #include "server/session/request_handler.h"
 
 #include <algorithm>
+#include <chrono>
 
 #include "common/pack/selection.h"
 
@@ -101,6 +102,34 @@ Result<Answer> answer_get(std::uint32_t request_id, const GetParts& request, std
   }
   answer.pack = std::move(pack);
   return answer;
+}
+
+StatusReport answer_status(const SessionServices& services, bool is_draining) {
+  const ServerCounters& counters = services.counters;
+  StatusReport report;
+  report.software = std::string("selvage-server ") + SELVAGE_VERSION;
+  const auto uptime = std::chrono::system_clock::now() - counters.started;
+  report.uptime_seconds =
+      static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::seconds>(uptime).count());
+  report.draining = is_draining;
+  report.is_encrypted = services.is_encrypted;
+  PackStore::Summary summary = services.store.summary();
+  report.models = summary.models;
+  report.model_bytes = summary.bytes;
+  for (auto& [name, problem] : summary.refused) report.problems.push_back({name, std::move(problem)});
+  report.connections = counters.sessions;
+  report.max_connections = services.max_connections;
+  report.connections_accepted = counters.connections;
+  report.connections_refused = counters.connections_refused;
+  report.requests = counters.lists + counters.opens + counters.gets + counters.statuses + counters.publishes +
+                    counters.unpublishes;
+  for (const auto& count : counters.errors) report.errors += count;
+  report.bytes_sent = counters.bytes_sent;
+  report.bytes_uploaded = counters.bytes_uploaded;
+  report.published = counters.published;
+  report.publish_failed = counters.publish_failed;
+  if (services.publishing != nullptr) report.jobs = services.publishing->jobs();
+  return report;
 }
 
 }  // namespace selvage

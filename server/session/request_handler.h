@@ -11,6 +11,7 @@
 #include "common/net/messages.h"
 #include "server/session/limits.h"
 #include "server/session/outbox.h"
+#include "server/session/services.h"
 #include "server/store/pack_store.h"
 
 namespace selvage {
@@ -26,5 +27,8 @@ Answer answer_open(std::uint32_t request_id, const OpenModel& request, std::shar
 /// ModelChanged if the request names another pack; NotFound names a region that is not there; LimitExceeded.
 Result<Answer> answer_get(std::uint32_t request_id, const GetParts& request, std::shared_ptr<const Pack> pack,
                           const SessionLimits& limits);
+
+/// From counters and what is known of the store: touches no disk.
+StatusReport answer_status(const SessionServices& services, bool is_draining);
 
 }  // namespace selvage

@@ -3,14 +3,12 @@
 
 #include <algorithm>
 
-#include <boost/asio/associated_executor.hpp>
 #include <boost/asio/co_spawn.hpp>
-#include <boost/asio/executor_work_guard.hpp>
-#include <boost/asio/post.hpp>
 
 #include "common/net/await.h"
 #include "common/net/frame_io.h"
 #include "server/session/request_handler.h"
+#include "server/session/run_on.h"
 
 namespace selvage {
 namespace {
@@ -26,44 +24,21 @@ constexpr std::size_t kSmallModel = 4096;
 constexpr std::uint64_t kBurst = 64u << 10;
 
 bool is_request(FrameType type) {
-  return type == FrameType::ListModels || type == FrameType::OpenModel || type == FrameType::GetParts;
+  return type == FrameType::ListModels || type == FrameType::OpenModel || type == FrameType::GetParts ||
+         type == FrameType::Status;
 }
 
-/// What `work()` returns when run on `workers`. The coroutine itself never leaves its strand: resuming it
-/// elsewhere would race with whoever cancels it.
-template <class Work, class Value = std::invoke_result_t<Work>>
-asio::awaitable<Value> run_on(asio::any_io_executor workers, Work work) {
-  auto initiate = [workers](auto done, Work job) {
-    auto home = asio::make_work_guard(asio::get_associated_executor(done));
-    auto run = [done = std::move(done), job = std::move(job), home = std::move(home)]() mutable {
-      std::exception_ptr thrown;
-      Value value{};
-      try {
-        value = job();
-      } catch (...) {
-        thrown = std::current_exception();
-      }
-      const auto executor = home.get_executor();
-      auto finish = [done = std::move(done), home = std::move(home), thrown,
-                     value = std::move(value)]() mutable { std::move(done)(thrown, std::move(value)); };
-      asio::post(executor, std::move(finish));
-    };
-    asio::post(workers, std::move(run));
-  };
-  const asio::use_awaitable_t<> token;
-  co_return co_await asio::async_initiate<const asio::use_awaitable_t<>, void(std::exception_ptr, Value)>(
-      std::move(initiate), token, std::move(work));
-}
+bool changes_models(FrameType type) { return type == FrameType::Publish || type == FrameType::Unpublish; }
 
 }  // namespace
 
-Session::Session(std::unique_ptr<ByteStream> stream, PackStore& store, asio::any_io_executor workers,
+Session::Session(std::unique_ptr<ByteStream> stream, const SessionServices& services,
                  const SessionLimits& limits)
     : stream_(std::move(stream)),
-      store_(store),
-      workers_(std::move(workers)),
+      services_(services),
       limits_(limits),
       peer_(stream_->peer()),
+      number_(++services.counters.connections),
       incoming_(limits.message_bytes, kReadSize),
       outbox_(limits),
       rate_(limits.bytes_per_second, kBurst, RateLimit::Clock::now()),
@@ -71,9 +46,14 @@ Session::Session(std::unique_ptr<ByteStream> stream, PackStore& store, asio::any
       wake_reader_(stream_->executor()),
       reading_(stream_->executor()),
       writing_(stream_->executor()),
-      writer_ended_(stream_->executor()) {}
+      writer_ended_(stream_->executor()) {
+  ++services_.counters.sessions;
+}
+
+Session::~Session() { --services_.counters.sessions; }
 
 asio::awaitable<void> Session::run() {
+  const LifelineHold hold(*this);
   watch_deadlines();
   reading_.expires_after(limits_.handshake_timeout);
   try {
@@ -124,6 +104,12 @@ void Session::shut_down() {
 
 /// Until there is a reason not to.
 asio::awaitable<void> Session::read_loop() {
+  const Result<void> ready = co_await stream_->handshake();
+  if (!ready) {
+    reason_ = ready.error();
+    stream_->close();
+    co_return;
+  }
   for (;;) {
     while (outbox_.full() && !closing_) co_await wake_reader_.wait();
     if (closing_) co_return;
@@ -147,25 +133,51 @@ asio::awaitable<void> Session::read_loop() {
 /// Fails only for what ends the connection. The frame's payload lives until the next read.
 asio::awaitable<Result<void>> Session::handle(Frame frame) {
   const std::uint32_t id = frame.header.request_id;
-  if (frame.header.seq != 0 || frame.header.flags != 0) {
-    co_return fail(ErrorCode::Protocol, "frames from a client have seq 0 and no flags");
+  if (frame.header.seq != 0 || (frame.header.flags != 0 && !frame.is(FrameType::Data))) {
+    co_return fail(ErrorCode::Protocol, "frames from a client have seq 0, and no flags but for END on Data");
   }
   if (!greeted_) co_return greet(frame);
-  if (id == 0 && is_request(frame.header.type)) co_return fail(ErrorCode::Protocol, "a request has an id");
+  const bool reads = is_request(frame.header.type), changes = changes_models(frame.header.type);
+  if (id == 0 && (reads || changes)) co_return fail(ErrorCode::Protocol, "a request has an id");
+  if (reads && refuse(id, access_.may_read, "read")) co_return Result<void>();
+  if (changes && refuse(id, access_.may_publish, "publish")) co_return Result<void>();
   switch (frame.header.type) {
     case FrameType::ListModels: {
       Result<ListModels> request = parse<ListModels>(frame.payload);
       if (!request) co_return forward_error(request);
+      ++services_.counters.lists;
       co_return co_await list(id, std::move(*request));
     }
     case FrameType::OpenModel: {
       Result<OpenModel> request = parse<OpenModel>(frame.payload);
       if (!request) co_return forward_error(request);
+      ++services_.counters.opens;
       co_return co_await open(id, std::move(*request));
     }
     case FrameType::GetParts: {
       co_return co_await get(id, frame.payload);
     }
+    case FrameType::Status: {
+      const Result<Status> request = parse<Status>(frame.payload);
+      if (!request) co_return tl::unexpected(request.error());
+      ++services_.counters.statuses;
+      status(id);
+      co_return Result<void>();
+    }
+    case FrameType::Publish: {
+      Result<Publish> request = parse<Publish>(frame.payload);
+      if (!request) co_return forward_error(request);
+      ++services_.counters.publishes;
+      co_return co_await publish(id, std::move(*request));
+    }
+    case FrameType::Unpublish: {
+      Result<Unpublish> request = parse<Unpublish>(frame.payload);
+      if (!request) co_return forward_error(request);
+      ++services_.counters.unpublishes;
+      co_return co_await unpublish(id, std::move(*request));
+    }
+    case FrameType::Data:
+      co_return co_await take_upload(frame);
     case FrameType::Credit: {
       Result<Credit> credit = parse<Credit>(frame.payload);
       if (!credit) co_return forward_error(credit);
@@ -177,7 +189,7 @@ asio::awaitable<Result<void>> Session::handle(Frame frame) {
       const Result<Cancel> request = parse<Cancel>(frame.payload);
       if (!request) co_return tl::unexpected(request.error());
       // A cancel may cross the end of its request on the way: then there is nothing left to do.
-      if (outbox_.cancel(id)) send_error(Error{ErrorCode::Cancelled, "cancelled"}, id);
+      if (!cancel_upload(id) && outbox_.cancel(id)) send_error(Error{ErrorCode::Cancelled, "cancelled"}, id);
       co_return Result<void>();
     }
     case FrameType::Ping: {
@@ -206,6 +218,10 @@ Result<void> Session::greet(const Frame& frame) {
     return fail(ErrorCode::Unsupported,
                 "this server speaks version " + std::to_string(kProtocolVersion) + " of the protocol");
   }
+  auto access = services_.access.table()->access_of(hello->token);
+  if (!access) return forward_error(access);
+  access_ = std::move(*access);
+  note("hello", 0, {{"peer", peer_}, {"who", access_.who}, {"software", hello->software}});
   greeted_ = true;
   HelloAck ack;
   ack.software = kSoftware;
@@ -217,12 +233,35 @@ Result<void> Session::greet(const Frame& frame) {
   return outbox_.grant(hello->initial_credit);
 }
 
+/// A line of the log about one request.
+void Session::note(const char* what, std::uint32_t request_id, LogFields fields) const {
+  if (!is_logged(LogLevel::Debug)) return;
+  fields.insert(fields.begin(), {"request", std::to_string(request_id)});
+  fields.insert(fields.begin(), {"connection", std::to_string(number_)});
+  log(LogLevel::Debug, what, fields);
+}
+
+void Session::note_model(const char* what, std::uint32_t request_id, const std::string& model) const {
+  if (is_logged(LogLevel::Debug)) note(what, request_id, {{"model", model}});
+}
+
+/// Whether the request is answered already: with the scope that its sender lacks.
+bool Session::refuse(std::uint32_t request_id, bool is_allowed, const char* scope) {
+  if (is_allowed) return false;
+  const std::string needs = std::string("this needs the scope '") + scope + "', which ";
+  const std::string lacks = access_.who == "anonymous" ? "clients without a token do not have"
+                                                       : "the token of '" + access_.who + "' does not have";
+  send_error(Error{ErrorCode::Unauthorised, needs + lacks}, request_id);
+  return true;
+}
+
 // ---- requests
 // ------------------------------------------------------------------------------------------------
 
 asio::awaitable<Result<void>> Session::list(std::uint32_t request_id, ListModels request) {
-  auto look = [&store = store_] { return store.list(); };
-  Result<std::vector<PackStore::Model>> models = co_await run_on(workers_, std::move(look));
+  note("list", request_id, LogFields());
+  auto look = [&store = services_.store] { return store.list(); };
+  Result<std::vector<PackStore::Model>> models = co_await run_on(services_.workers, std::move(look));
   if (models) {
     send(answer_list(request, *models), request_id);
   } else {
@@ -232,6 +271,7 @@ asio::awaitable<Result<void>> Session::list(std::uint32_t request_id, ListModels
 }
 
 asio::awaitable<Result<void>> Session::open(std::uint32_t request_id, OpenModel request) {
+  note_model("open", request_id, request.name);
   Result<std::shared_ptr<const Pack>> pack = co_await open_pack(request.name);
   if (pack) {
     send_answer(answer_open(request_id, request, std::move(*pack)));
@@ -249,9 +289,11 @@ asio::awaitable<Result<void>> Session::get(std::uint32_t request_id, std::span<c
   if (is_small) {
     request = parse_request();
   } else {
-    request = co_await run_on(workers_, parse_request);
+    request = co_await run_on(services_.workers, parse_request);
   }
   if (!request) co_return forward_error(request);
+  ++services_.counters.gets;
+  note_model("get", request_id, request->model);
 
   Result<std::shared_ptr<const Pack>> pack = opened_pack(request->model);
   if (*pack == nullptr) pack = co_await open_pack(request->model);
@@ -264,7 +306,7 @@ asio::awaitable<Result<void>> Session::get(std::uint32_t request_id, std::span<c
   if (is_small && (*pack)->directory().regions.size() <= kSmallModel) {
     answer = look_up();
   } else {
-    answer = co_await run_on(workers_, look_up);
+    answer = co_await run_on(services_.workers, look_up);
   }
   if (answer) {
     send_answer(std::move(*answer));
@@ -274,6 +316,8 @@ asio::awaitable<Result<void>> Session::get(std::uint32_t request_id, std::span<c
   co_return Result<void>();
 }
 
+void Session::status(std::uint32_t request_id) { send(answer_status(services_, draining_), request_id); }
+
 std::shared_ptr<const Pack> Session::opened_pack(const std::string& name) const {
   const auto found = std::ranges::find(opened_, name, &OpenedModel::name);
   return found == opened_.end() ? nullptr : found->pack;
@@ -281,8 +325,8 @@ std::shared_ptr<const Pack> Session::opened_pack(const std::string& name) const 
 
 /// The pack as the store has it now; remembered for the gets to come.
 asio::awaitable<Result<std::shared_ptr<const Pack>>> Session::open_pack(std::string name) {
-  auto look = [&store = store_, &name] { return store.open(name); };
-  Result<std::shared_ptr<const Pack>> pack = co_await run_on(workers_, std::move(look));
+  auto look = [&store = services_.store, &name] { return store.open(name); };
+  Result<std::shared_ptr<const Pack>> pack = co_await run_on(services_.workers, std::move(look));
   if (pack) {
     std::erase_if(opened_, [&](const OpenedModel& model) { return model.name == name; });
     opened_.push_back({std::move(name), *pack});
@@ -294,13 +338,9 @@ asio::awaitable<Result<std::shared_ptr<const Pack>>> Session::open_pack(std::str
 // ---- sending
 // -------------------------------------------------------------------------------------------------
 
-template <class Message>
-void Session::send(const Message& message, std::uint32_t request_id) {
-  outbox_.push_control(to_frame(message, request_id));
-  wake_writer();
-}
-
 void Session::send_error(const Error& error, std::uint32_t request_id) {
+  services_.counters.count_error(error.code);
+  note("error", request_id, {{"code", std::string(to_string(error.code))}, {"message", error.message}});
   send(ErrorMessage{error, is_retryable(error.code)}, request_id);
 }
 
@@ -348,7 +388,7 @@ asio::awaitable<void> Session::write_loop() {
     co_await rate_pause_.wait_for(pause);
   }
   is_writing_ = false;
-  if (is_broken || closing_ || (draining_ && outbox_.idle())) {
+  if (is_broken || closing_ || (draining_ && outbox_.idle() && !upload_)) {
     closing_ = true;
     stream_->close();  // which ends the reader
     wake_reader_.notify();
@@ -360,6 +400,7 @@ asio::awaitable<Result<void>> Session::write(Batch& batch) {
   writing_.expires_after(limits_.write_timeout);
   Result<void> written = co_await stream_->write(batch.pieces());
   writing_.clear();
+  if (written) services_.counters.bytes_sent += batch.size_bytes();
   co_return written;
 }
 

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/log.h"
 #include "common/net/byte_stream.h"
 #include "common/net/deadline.h"
 #include "common/net/frame.h"
@@ -22,16 +23,16 @@
 #include "server/session/limits.h"
 #include "server/session/outbox.h"
 #include "server/session/rate_limit.h"
-#include "server/store/pack_store.h"
+#include "server/session/services.h"
 
 namespace selvage {
 
-/// Single-strand (the stream's), workers aside. `store` and `workers` outlive it.
+/// Single-strand (the stream's), workers aside.
 class Session {
  public:
-  /// The store is asked on `workers`, so that a disk never holds up the strand.
-  Session(std::unique_ptr<ByteStream> stream, PackStore& store, asio::any_io_executor workers,
-          const SessionLimits& limits);
+  /// The store is asked on the services' workers, so that a disk never holds up the strand.
+  Session(std::unique_ptr<ByteStream> stream, const SessionServices& services, const SessionLimits& limits);
+  ~Session();
 
   /// The whole life of the connection. Returns when it is closed; the session may then go.
   asio::awaitable<void> run();
@@ -42,6 +43,8 @@ class Session {
   void abort() { stream_->close(); }
 
   const std::string& peer() const { return peer_; }
+  /// Which of the server's connections this is, counted from 1; in every line of the log about it.
+  std::uint64_t number() const { return number_; }
   /// Why it ended, once run() has returned; nothing if the client left in good order.
   const std::optional<Error>& reason() const { return reason_; }
 
@@ -54,6 +57,9 @@ class Session {
   asio::awaitable<Result<void>> write(Batch& batch);
 
   Result<void> greet(const Frame& frame);
+  void note(const char* what, std::uint32_t request_id, LogFields fields) const;
+  void note_model(const char* what, std::uint32_t request_id, const std::string& model) const;
+  bool refuse(std::uint32_t request_id, bool is_allowed, const char* scope);
   asio::awaitable<Result<void>> handle(Frame frame);
   asio::awaitable<Result<void>> list(std::uint32_t request_id, ListModels request);
   asio::awaitable<Result<void>> open(std::uint32_t request_id, OpenModel request);
@@ -61,8 +67,44 @@ class Session {
   asio::awaitable<Result<std::shared_ptr<const Pack>>> open_pack(std::string name);
   std::shared_ptr<const Pack> opened_pack(const std::string& name) const;
 
+  void status(std::uint32_t request_id);
+
+  // Publishing: session_publish.cpp.
+  struct Lifeline;
+  /// As long as it lives, events from other threads find the session.
+  class LifelineHold {
+   public:
+    explicit LifelineHold(Session& session);
+    ~LifelineHold();
+    LifelineHold(const LifelineHold&) = delete;
+    LifelineHold& operator=(const LifelineHold&) = delete;
+
+   private:
+    Session& session_;
+  };
+  /// The one upload that a session may have.
+  struct Uploading {
+    std::uint32_t request_id = 0;
+    std::uint64_t size = 0;
+    std::shared_ptr<Upload> upload;
+    std::uint32_t seq = 0;
+    bool is_submitted = false;  ///< all bytes are there: events say what becomes of them
+  };
+  asio::awaitable<Result<void>> publish(std::uint32_t request_id, Publish request);
+  asio::awaitable<Result<void>> unpublish(std::uint32_t request_id, Unpublish request);
+  asio::awaitable<Result<void>> take_upload(Frame frame);
+  asio::awaitable<void> submit_upload();
+  Result<void> may_upload() const;
+  PublishEvents events_for(std::uint32_t request_id);
+  void tell_progress(std::uint32_t request_id, const PublishProgress& progress);
+  void end_upload(std::uint32_t request_id, const Result<Published>& outcome);
+  bool cancel_upload(std::uint32_t request_id);
+
   template <class Message>
-  void send(const Message& message, std::uint32_t request_id);
+  void send(const Message& message, std::uint32_t request_id) {
+    outbox_.push_control(to_frame(message, request_id));
+    wake_writer();
+  }
   void send_error(const Error& error, std::uint32_t request_id);
   void send_answer(Answer answer);
 
@@ -72,10 +114,11 @@ class Session {
   };
 
   std::unique_ptr<ByteStream> stream_;
-  PackStore& store_;
-  asio::any_io_executor workers_;
+  const SessionServices services_;
   const SessionLimits limits_;
   const std::string peer_;
+  const std::uint64_t number_;
+  Access access_;  ///< since the Hello
 
   FrameBuffer incoming_;
   Outbox outbox_;
@@ -92,6 +135,9 @@ class Session {
   bool is_writing_ = false;    ///< one of them takes from the outbox
   bool ended_ = false;         ///< no more writers
   std::exception_ptr thrown_;  ///< by a loop
+  std::optional<Uploading> upload_;
+  std::uint32_t last_upload_ = 0;  ///< the request whose Data may still arrive; 0: none
+  std::shared_ptr<Lifeline> lifeline_;
   bool greeted_ = false;
   bool draining_ = false;  ///< no new requests; the writer ends when all is sent
   bool closing_ = false;   ///< the writer sends what control frames are left, and ends

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <sys/stat.h>
 
+#include "common/base/replace_file.h"
+
 namespace selvage {
 namespace {
 
@@ -28,9 +30,14 @@ bool is_model_name(std::string_view name) {
          name.find_first_of(std::string_view("/\\\0", 3)) == std::string_view::npos;
 }
 
-PackStore::PackStore(std::filesystem::path folder) : folder_(std::move(folder)) {}
+PackStore::PackStore(std::filesystem::path folder, Options options)
+    : folder_(std::move(folder)), options_(std::move(options)), watch_(folder_, kPackExtension) {}
 
 Result<std::unique_ptr<PackStore>> PackStore::open_folder(std::filesystem::path folder) {
+  return open_folder(std::move(folder), Options());
+}
+
+Result<std::unique_ptr<PackStore>> PackStore::open_folder(std::filesystem::path folder, Options options) {
   std::error_code error;
   const auto status = std::filesystem::status(folder, error);
   if (!std::filesystem::exists(status))
@@ -38,7 +45,7 @@ Result<std::unique_ptr<PackStore>> PackStore::open_folder(std::filesystem::path 
   if (!std::filesystem::is_directory(status)) {
     return fail(ErrorCode::InvalidArgument, "not a folder: " + folder.string());
   }
-  return std::unique_ptr<PackStore>(new PackStore(std::move(folder)));
+  return std::unique_ptr<PackStore>(new PackStore(std::move(folder), std::move(options)));
 }
 
 std::filesystem::path PackStore::path_of(std::string_view name) const {
@@ -56,27 +63,44 @@ Result<PackStore::Stamp> PackStore::stamp_of(const std::filesystem::path& path) 
                status.st_mtim.tv_sec * std::int64_t{1'000'000'000} + status.st_mtim.tv_nsec};
 }
 
-Result<PackStore::Model> PackStore::refresh(const std::string& name) {
+/// Makes `opened_` say of one model what the disk says.
+Result<void> PackStore::refresh(const std::string& name) {
   const std::filesystem::path path = path_of(name);
   auto stamp = stamp_of(path);
   if (!stamp) {
-    const std::lock_guard lock(mutex_);
-    opened_.erase(name);
+    forget(name);
     return forward_error(stamp);
   }
   {
     const std::lock_guard lock(mutex_);
     const auto known = opened_.find(name);
-    if (known != opened_.end() && known->second.stamp == *stamp) {
-      return Model{name, stamp->size_bytes, known->second.pack};
-    }
+    if (known != opened_.end() && known->second.stamp == *stamp) return {};
   }
   // Outside the lock: a large pack must not hold up the others. Two callers may open the same file; either
   // will do.
   Result<std::shared_ptr<const Pack>> pack = open_pack(name, path);
-  const std::lock_guard lock(mutex_);
-  opened_.insert_or_assign(name, Opened{*stamp, pack});
-  return Model{name, stamp->size_bytes, std::move(pack)};
+  StoreEvent::Kind kind = pack ? StoreEvent::Kind::Appeared : StoreEvent::Kind::Refused;
+  const std::string reason = pack ? "" : pack.error().to_string();
+  {
+    const std::lock_guard lock(mutex_);
+    const auto [at, is_new] = opened_.insert_or_assign(name, Opened{*stamp, std::move(pack)});
+    if (!is_new && kind == StoreEvent::Kind::Appeared) kind = StoreEvent::Kind::Replaced;
+  }
+  tell(kind, name, stamp->size_bytes, reason);
+  return {};
+}
+
+void PackStore::forget(const std::string& name) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (opened_.erase(name) == 0) return;
+  }
+  tell(StoreEvent::Kind::Gone, name, 0);
+}
+
+void PackStore::tell(StoreEvent::Kind kind, const std::string& name, std::uint64_t size_bytes,
+                     std::string reason) const {
+  if (options_.on_event) options_.on_event({kind, name, size_bytes, std::move(reason)});
 }
 
 Result<std::shared_ptr<const Pack>> PackStore::open(std::string_view name) {
@@ -85,25 +109,88 @@ Result<std::shared_ptr<const Pack>> PackStore::open(std::string_view name) {
     return fail(ErrorCode::NotFound, "no model named '" + std::string(name) + "'");
   };
   if (!is_model_name(name)) return not_found();
-  auto model = refresh(std::string(name));
-  if (!model && model.error().code == ErrorCode::NotFound) return not_found();
-  if (!model) return forward_error(model);
-  return std::move(model->pack);
+  auto refreshed = refresh(std::string(name));
+  if (!refreshed && refreshed.error().code == ErrorCode::NotFound) return not_found();
+  if (!refreshed) return forward_error(refreshed);
+  const std::lock_guard lock(mutex_);
+  const auto known = opened_.find(name);
+  if (known == opened_.end()) return not_found();  // it went away just now
+  return known->second.pack;
 }
 
-Result<std::vector<PackStore::Model>> PackStore::list() {
-  std::vector<Model> models;
+bool PackStore::must_look() {
+  const std::lock_guard lock(mutex_);
+  const auto now = Clock::now();
+  const bool is_due = looked_ == Clock::time_point() || now - looked_ >= options_.poll_interval;
+  if (!watch_.take_changes() && !is_due) return false;
+  looked_ = now;
+  return true;
+}
+
+/// Reads the folder.
+Result<void> PackStore::look() {
+  std::map<std::string, bool, std::less<>> found;
   std::error_code error;
   for (std::filesystem::directory_iterator at(folder_, error), end; !error && at != end;
        at.increment(error)) {
     const std::string name = at->path().stem().string();
     if (at->path().extension() != kPackExtension || !is_model_name(name)) continue;
-    auto model = refresh(name);
-    if (model) models.push_back(std::move(*model));  // else it went away just now
+    if (refresh(name)) found[name] = true;  // else it went away just now, or is no file
   }
-  if (error) return fail(ErrorCode::Io, "the store cannot be read: " + error.message());
-  std::ranges::sort(models, {}, &Model::name);
+  if (error) {
+    const std::lock_guard lock(mutex_);
+    looked_ = {};
+    return fail(ErrorCode::Io, "the store cannot be read: " + error.message());
+  }
+  std::vector<std::string> gone;
+  {
+    const std::lock_guard lock(mutex_);
+    for (const auto& [name, opened] : opened_) {
+      if (!found.contains(name)) gone.push_back(name);
+    }
+  }
+  for (const std::string& name : gone) {
+    if (!stamp_of(path_of(name))) forget(name);  // not one that came while we looked
+  }
+  return {};
+}
+
+Result<std::vector<PackStore::Model>> PackStore::list() {
+  {
+    // Who comes while another looks waits for what that one finds.
+    const std::lock_guard one_at_a_time(looking_);
+    if (must_look()) {
+      if (auto looked = look(); !looked) return forward_error(looked);
+    }
+  }
+  const std::lock_guard lock(mutex_);
+  std::vector<Model> models;
+  models.reserve(opened_.size());
+  for (const auto& [name, opened] : opened_) models.push_back({name, opened.stamp.size_bytes, opened.pack});
   return models;
+}
+
+Result<void> PackStore::remove(const std::string& name) {
+  const auto not_found = [&] { return fail(ErrorCode::NotFound, "no model named '" + name + "'"); };
+  if (!is_model_name(name)) return not_found();
+  const std::filesystem::path path = path_of(name);
+  if (!stamp_of(path)) return not_found();
+  std::error_code error;
+  if (!std::filesystem::remove(path, error) && !error) return not_found();
+  if (error) return fail(ErrorCode::Io, "model '" + name + "' cannot be removed: " + error.message());
+  forget(name);
+  return sync_folder(folder_);
+}
+
+PackStore::Summary PackStore::summary() const {
+  const std::lock_guard lock(mutex_);
+  Summary summary;
+  for (const auto& [name, opened] : opened_) {
+    ++summary.models;
+    summary.bytes += opened.stamp.size_bytes;
+    if (!opened.pack) summary.refused.emplace_back(name, opened.pack.error().to_string());
+  }
+  return summary;
 }
 
 }  // namespace selvage

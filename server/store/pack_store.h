@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
-// The models that a server offers: a folder of packs, `NAME.selvage` each. The folder is looked at on every
-// call, so packs that appear, change or go are noticed without anyone telling. A damaged pack is an error
-// with its reason for whoever opens it, and no concern of the others.
+// The models that a server offers: a folder of packs, `NAME.selvage` each. The folder is watched, so packs
+// that appear, change or go are noticed without anyone telling. A damaged pack is an error with its reason
+// for whoever opens it, and no concern of the others.
 //
 // Packs must be replaced by renaming a whole file over the old one: a mapped file that is truncated in place
 // would take the process down. A replaced pack lives on for those who have it open.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -19,6 +21,7 @@
 
 #include "common/base/result.h"
 #include "common/pack/pack.h"
+#include "server/store/folder_watch.h"
 
 namespace selvage {
 
@@ -28,6 +31,15 @@ inline constexpr std::string_view kPackExtension = ".selvage";
 /// What else it holds is for the file system and the wire to judge.
 bool is_model_name(std::string_view name);
 
+/// Something that happened to a model, for logs.
+struct StoreEvent {
+  enum class Kind { Appeared, Replaced, Refused, Gone };
+  Kind kind = Kind::Appeared;
+  std::string model;
+  std::uint64_t size_bytes = 0;
+  std::string reason;  ///< of Refused: what is wrong with the pack
+};
+
 /// Thread-safe. Calls touch the disk: keep them off I/O threads.
 class PackStore {
  public:
@@ -36,10 +48,18 @@ class PackStore {
     std::uint64_t size_bytes = 0;  ///< of the file
     Result<std::shared_ptr<const Pack>> pack;
   };
+  struct Options {
+    /// The folder is read this often even if the kernel tells of no change, as it does not of changes that
+    /// other machines make; always where there is no watch at all.
+    std::chrono::milliseconds poll_interval{10'000};
+    /// Called for each event, on the thread whose call noticed it; must not call the store.
+    std::function<void(const StoreEvent&)> on_event;
+  };
 
   /// NotFound or InvalidArgument unless `folder` is one. It stays watched, not locked: others may write to
   /// it.
   static Result<std::unique_ptr<PackStore>> open_folder(std::filesystem::path folder);
+  static Result<std::unique_ptr<PackStore>> open_folder(std::filesystem::path folder, Options options);
 
   /// The pack of that name as it is on disk now. NotFound: no such model, or a name that could not be one;
   /// otherwise what Pack::open says. Errors name the model, not the folder.
@@ -48,6 +68,20 @@ class PackStore {
   /// All models, ascending by name (bytewise), damaged ones with their errors. Io if the folder cannot be
   /// read.
   Result<std::vector<Model>> list();
+
+  /// Takes a model away: nobody can open it any more, and who has it open keeps it. NotFound; Io.
+  Result<void> remove(const std::string& name);
+
+  /// What the last look found; touches no disk.
+  struct Summary {
+    std::uint32_t models = 0;
+    std::uint64_t bytes = 0;
+    std::vector<std::pair<std::string, std::string>> refused;  ///< damaged packs and what is wrong with them
+  };
+  Summary summary() const;
+
+  const std::filesystem::path& folder() const { return folder_; }
+  std::filesystem::path path_of(std::string_view name) const;
 
  private:
   /// Tells one state of a file from another; renaming a file into place changes the inode.
@@ -60,15 +94,24 @@ class PackStore {
     Stamp stamp;
     Result<std::shared_ptr<const Pack>> pack;
   };
+  using Clock = std::chrono::steady_clock;
 
-  explicit PackStore(std::filesystem::path folder);
+  PackStore(std::filesystem::path folder, Options options);
   static Result<Stamp> stamp_of(const std::filesystem::path& path);
-  std::filesystem::path path_of(std::string_view name) const;
-  Result<Model> refresh(const std::string& name);
+  bool must_look();
+  Result<void> look();
+  Result<void> refresh(const std::string& name);
+  void forget(const std::string& name);
+  void tell(StoreEvent::Kind kind, const std::string& name, std::uint64_t size_bytes,
+            std::string reason = {}) const;
 
   const std::filesystem::path folder_;
-  std::mutex mutex_;
+  const Options options_;
+  std::mutex looking_;  ///< one reads the folder at a time
+  mutable std::mutex mutex_;
   std::map<std::string, Opened, std::less<>> opened_;  ///< as found at the last look, guarded by mutex_
+  FolderWatch watch_;                                  ///< guarded by mutex_
+  Clock::time_point looked_{};                         ///< guarded by mutex_
 };
 
 }  // namespace selvage

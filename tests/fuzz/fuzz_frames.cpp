@@ -14,6 +14,27 @@ using namespace selvage;
 
 void parse_any(const Frame& frame) {
   switch (frame.header.type) {
+    case FrameType::Publish:
+      (void)parse<Publish>(frame.payload);
+      break;
+    case FrameType::PublishReady:
+      (void)parse<PublishReady>(frame.payload);
+      break;
+    case FrameType::PublishProgress:
+      (void)parse<PublishProgress>(frame.payload);
+      break;
+    case FrameType::Published:
+      (void)parse<Published>(frame.payload);
+      break;
+    case FrameType::Unpublish:
+      (void)parse<Unpublish>(frame.payload);
+      break;
+    case FrameType::Status:
+      (void)parse<Status>(frame.payload);
+      break;
+    case FrameType::StatusReport:
+      (void)parse<StatusReport>(frame.payload);
+      break;
     case FrameType::Hello:
       (void)parse<Hello>(frame.payload);
       break;

@@ -33,10 +33,11 @@ TEST(SegmentModel, GivesARegionToEveryTriangleOfTheFileInItsOrder) {
   }
 }
 
-TEST(SegmentModel, LargeModelsGetStreamingSizesUnlessANumberIsAskedFor) {
+TEST(SegmentModel, CutsByShapeAloneUnlessSizesAreAskedFor) {
   const RepairedMesh mesh = repair(shapes::sphere(6)).value();
-  EXPECT_GE(segment_model(mesh, {}, {}, serial_for()).regions.region_count, 4u);
-  EXPECT_EQ(segment_model(mesh, {}, {.target_regions = 1}, serial_for()).regions.region_count, 1u);
+  EXPECT_EQ(segment_model(mesh, {}, {}, serial_for()).regions.region_count, 1u);
+  const SegmentOptions sized = with_streaming_sizes({}, mesh.table.triangle_count());
+  EXPECT_GE(segment_model(mesh, {}, sized, serial_for()).regions.region_count, 4u);
 }
 
 }  // namespace

@@ -54,8 +54,10 @@ forbid "${pure/(decode|stitch)/decode}" '(thread|mutex|shared_mutex|atomic|futur
   'pure code has no threads, files, or clocks'
 
 only_in 'common/mesh_io/|client/interop/' 'OpenMesh/' 'OpenMesh has two doors'
-only_in 'common/net/|(server|client)/(session|app)/|client/load/' '(boost/)?asio' 'Asio stays in net, sessions, load and app'
-only_in 'common/net/' 'boost/(beast|system)' 'Asio stays in net, session and app'
+only_in 'common/net/|(server|client)/(session|app)/|client/load/|server/operate/' '(boost/)?asio' 'Asio stays in net, sessions, load, operate and app'
+only_in 'common/net/|server/operate/' 'boost/(beast|system)' 'Asio stays in net, session and app'
+only_in 'server/operate/' 'prometheus/' 'metrics have one door'
+only_in 'server/app/' 'toml\+\+/' 'configuration is an app matter'
 only_in 'common/net/messages\.cpp' 'google/protobuf|[^">]*\.pb\.h' 'protobuf stays behind common/net/messages.h'
 only_in 'common/base/log\.cpp' 'spdlog/' 'spdlog stays behind common/base/log.h'
 only_in 'common/base/(parallel|task_group)\.cpp' '(tbb|oneapi)/' 'threads come from common/base/parallel.h and task_group.h'

@@ -28,7 +28,8 @@ template <class Message>
 class EveryMessage : public ::testing::Test {};
 using AllMessages =
     ::testing::Types<Hello, HelloAck, ListModels, Models, OpenModel, ManifestBegin, GetParts, Reprioritise,
-                     PartBegin, RequestEnd, Credit, ErrorMessage, GoAway, Cancel, Ping, Pong>;
+                     PartBegin, RequestEnd, Credit, ErrorMessage, GoAway, Cancel, Ping, Pong, Publish,
+                     PublishReady, PublishProgress, Published, Unpublish, Status, StatusReport>;
 TYPED_TEST_SUITE(EveryMessage, AllMessages);
 
 TYPED_TEST(EveryMessage, ComesBackAsItWent) {

@@ -84,4 +84,47 @@ inline GoAway sample() {
   return {"shutting down"};
 }
 
+template <>
+inline Publish sample() {
+  return {"bunny", "bunny.ply", 123'456, sample_hash(8), true, true, 12, "mm"};
+}
+template <>
+inline PublishReady sample() {
+  return {std::uint64_t{5} << 32};
+}
+template <>
+inline PublishProgress sample() {
+  return {"encode", 500, 2};
+}
+template <>
+inline Published sample() {
+  return {"bunny", sample_hash(9), 123'456, 40, 34'834, 69'451, {"3 triangles dropped", "2 kept"}};
+}
+template <>
+inline Unpublish sample() {
+  return {"bunny"};
+}
+template <>
+inline StatusReport sample() {
+  StatusReport report;
+  report.software = "some server 1.0";
+  report.uptime_seconds = 3600;
+  report.draining = report.is_encrypted = true;
+  report.models = 3;
+  report.model_bytes = std::uint64_t{5} << 32;
+  report.problems = {{"torn", "the pack is damaged"}};
+  report.connections = 4;
+  report.max_connections = 4096;
+  report.connections_accepted = 100;
+  report.connections_refused = 5;
+  report.requests = 1000;
+  report.errors = 6;
+  report.bytes_sent = std::uint64_t{6} << 32;
+  report.bytes_uploaded = 7;
+  report.published = 8;
+  report.publish_failed = 9;
+  report.jobs = {{"lucy", "segment", 250}};
+  return report;
+}
+
 }  // namespace selvage

@@ -116,6 +116,16 @@ TEST(Selection, ResolvesNamesToTheirRegions) {
   EXPECT_NE(missing.error().message.find("'c'; there are a, b"), std::string::npos);
 }
 
+TEST(Selection, UnknownNamesAreAnsweredWithThoseMostLikeThem) {
+  Directory directory = row_of_five();
+  for (int i = 0; i < 30; ++i) directory.names.push_back({"bolt_" + std::to_string(i), {{1, 1}}});
+  directory.names.push_back({"wheel_left", {{1, 1}}});
+  const auto missing = resolve_names(directory, parse_region_list("Wheel_lift").value());
+  ASSERT_FALSE(missing);
+  EXPECT_NE(missing.error().message.find("most like it are wheel_left, "), std::string::npos);
+  EXPECT_NE(missing.error().message.find("and 21 others"), std::string::npos);
+}
+
 /// Regions of row_of_five with levels: 0, 1 and, the same as 1, 2; region 5 has 0 alone.
 Directory row_with_levels() {
   Directory directory = row_of_five();

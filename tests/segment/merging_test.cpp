@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
+#include <set>
 
 #include <gtest/gtest.h>
 
 #include "server/segment/erosion.h"
 #include "server/segment/merge_by_size.h"
 #include "server/segment/minima.h"
+#include "server/segment/neighbours.h"
+#include "server/segment/one_ring.h"
 #include "server/segment/prune_branches.h"
 #include "server/segment/region_graph.h"
 #include "tests/segment/segment_support.h"
@@ -21,17 +24,30 @@ std::vector<std::uint32_t> twice(std::vector<std::uint32_t> row) {
   return row;
 }
 
+TEST(Neighbours, AreThoseAroundEachVertex) {
+  for (const auto& [name, mesh] : odd_meshes()) {
+    SCOPED_TRACE(name);
+    const Neighbours neighbours(mesh.table);
+    for (VertexId v = 0; v < mesh.table.vertex_count(); ++v) {
+      std::multiset<VertexId> around, listed(neighbours[v].begin(), neighbours[v].end());
+      for_each_neighbour(mesh.table, v, [&](VertexId u) { around.insert(u); });
+      EXPECT_EQ(listed, around);
+    }
+  }
+}
+
 TEST(Minima, AreTheConnectedSetsOutsideThePlateau) {
   const std::vector<std::uint32_t> plateau_row = {0, 0, 1, 0, 1, 1, 0};
   const auto flags = twice(plateau_row);
-  const Minima minima = label_minima(strip(6).table, std::vector<std::uint8_t>(flags.begin(), flags.end()));
+  const Minima minima =
+      label_minima(Neighbours(strip(6).table), std::vector<std::uint8_t>(flags.begin(), flags.end()));
   EXPECT_EQ(minima.count, 3u);
   EXPECT_EQ(minima.label_of_vertex, twice({0, 0, kNone, 1, kNone, kNone, 2}));
 }
 
 TEST(Erosion, GrowsAllBasinsAtTheSameSpeed) {
   Minima minima{twice({0, kNone, kNone, kNone, kNone, kNone, 1}), 2};
-  erode_plateau(strip(6).table, minima);
+  erode_plateau(Neighbours(strip(6).table), minima);
   for (int x : {0, 1, 2}) EXPECT_EQ(minima.label_of_vertex[x], 0u);
   for (int x : {4, 5, 6}) EXPECT_EQ(minima.label_of_vertex[x], 1u);
 }
@@ -42,7 +58,7 @@ TEST(Erosion, MakesARegionOfAComponentThatIsAllPlateau) {
   const TestMesh mesh = mesh_of(soup);
   Minima minima{std::vector<std::uint32_t>(mesh.table.vertex_count(), kNone), 1};
   minima.label_of_vertex[0] = 0;
-  erode_plateau(mesh.table, minima);
+  erode_plateau(Neighbours(mesh.table), minima);
   EXPECT_EQ(minima.count, 2u);
   EXPECT_EQ(minima.label_of_vertex.front(), 0u);
   EXPECT_EQ(minima.label_of_vertex.back(), 1u);

@@ -14,16 +14,16 @@ namespace selvage {
 namespace {
 
 /// Two triangles that share all vertices of an edge and are cut there, as repair leaves a non-manifold edge:
-/// a strip of three whose first and last triangle have the edge 0-1 in common without being glued.
+/// a tetrahedron cut open along the edge 0-1.
 TestMesh cut_edge() {
-  TestMesh mesh = mesh_of(TriangleSoup{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 1}}, {{0, 1, 2}, {0, 2, 3}}});
-  const std::vector<Triangle> triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}};
-  mesh.table = build_corner_table(triangles, 4);
-  for (CornerId c = 0; c < mesh.table.corner_count(); ++c) {  // open the edge 0-1, which the last one closed
+  TestMesh mesh = mesh_of(shapes::tetrahedron());
+  for (CornerId c = 0; c < mesh.table.corner_count(); ++c) {
     const auto tail = mesh.table.vertex(next(c)), head = mesh.table.vertex(prev(c));
     if (tail + head == 1) mesh.table.opposite[c] = kNone;
   }
-  mesh.table.set_corner_of_vertex(4);
+  mesh.table.set_corner_of_vertex(mesh.table.vertex_count());
+  const auto ok = check_corner_table(mesh.table);
+  EXPECT_TRUE(ok) << ok.error().message;
   return mesh;
 }
 

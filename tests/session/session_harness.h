@@ -30,7 +30,7 @@ class SessionHarness {
   /// The other end of a connection whose near end a session serves (start it before run()).
   std::unique_ptr<ByteStream> connect() {
     auto [near_end, far_end] = make_memory_streams(executor(), options_);
-    session_ = std::make_unique<Session>(std::move(near_end), *store_, executor(), limits_);
+    session_ = std::make_unique<Session>(std::move(near_end), services_, limits_);
     asio::co_spawn(executor(), session_->run(), [this](std::exception_ptr thrown) {
       session_ended_ = true;
       if (thrown) thrown_ = thrown;
@@ -53,6 +53,7 @@ class SessionHarness {
   }
 
   Session& session() { return *session_; }
+  AccessControl& access() { return access_; }
 
  private:
   const SessionLimits limits_;
@@ -60,6 +61,9 @@ class SessionHarness {
   TempFolder folder_;
   std::unique_ptr<PackStore> store_ = std::move(PackStore::open_folder(folder_.path()).value());
   asio::io_context io_;
+  AccessControl access_;
+  ServerCounters counters_;
+  const SessionServices services_{*store_, io_.get_executor(), access_, counters_};
   std::unique_ptr<Session> session_;
   bool session_ended_ = false;
   std::exception_ptr thrown_;

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "client/app/server_options.h"
+
+namespace selvage {
+
+/// `selvage-client publish`: a mesh file becomes a model of a server.
+struct PublishCommand {
+  std::string server;  ///< HOST:PORT
+  std::filesystem::path model;
+  std::string name;  ///< empty: the file's stem
+  std::string units;
+  int bits = 14;
+  bool lossless = false;
+  bool replace = false;
+  int retries = 8;  ///< connections lost in a row
+  bool json = false;
+  ServerOptions connection;
+};
+Result<void> run(const PublishCommand& command);
+
+/// `selvage-client unpublish`: a model of a server goes.
+struct UnpublishCommand {
+  std::string server;
+  std::string name;
+  ServerOptions connection;
+};
+Result<void> run(const UnpublishCommand& command);
+
+}  // namespace selvage
