@@ -79,6 +79,7 @@ demo_model() {
   show "$bin/selvage-client" verify "$out/store/$name.selvage"
   show "$bin/selvage-client" draw "$address" -o "$out/$name-regions.png"
   show "$bin/selvage-client" draw "$address" --steps 6 -o "$out/$name-arrival.png"
+  show "$bin/selvage-client" draw "$address" --levels -o "$out/$name-levels.png"
 
   local bytes vertices
   bytes=$(stat --format %s -- "$out/store/$name.selvage")
@@ -111,7 +112,7 @@ done
 
 printf '\n%-16s %8s %10s %10s %8s %12s %12s  %s\n' model regions triangles bytes bits/vtx 'first region' 'whole model' comparison
 printf '%s\n' "${rows[@]}"
-printf '\nPictures: the regions in colours, and the model as it arrives, region by region\n'
+printf '\nPictures: the regions in colours, the model as it arrives, region by region, and its levels of detail\n'
 for picture in "$out"/*.png; do printf '  %s\n' "$picture"; done
 ((status == 0)) || echo 'demo: something was lost on the way, see above' >&2
 exit "$status"

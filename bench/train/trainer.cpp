@@ -117,46 +117,42 @@ std::int16_t fixed(double value, double scale) {
 }
 
 /// Calls visit(walk, surroundings, position) for every vertex that something predicts; `visit` places it.
-void for_each_vertex(const TrainingRegion& region, const CodecTables& tables, const Blends& blends,
-                     const std::function<void(GeometryWalk&, const Surroundings&, const GridPoint&)>& visit) {
+void for_each_vertex(const TrainingRegion& region,
+                     const std::function<void(GeometryWalk&, const Surroundings&, IntLanes)>& visit) {
   if (region.mesh.table.triangle_count() == 0) return;
-  GeometryWalk walk(region.mesh.table, tables, blends, region.box.extent());
+  GeometryWalk walk(region.mesh.table, region.mesh.table.vertex_count(), region.box.extent());
   for (Surroundings around; walk.next_vertex(around);) {
     const GridPoint& position = region.mesh.positions[walk.old_number()];
-    if (around.neighbours == 0) {
+    if (!around.has_neighbours) {
       walk.place_first(position);
     } else {
-      visit(walk, around, position);
+      visit(walk, around, IntLanes{position.x, position.y, position.z, 0});
     }
   }
 }
 
 /// Errors count in units of what is to be expected there (the errors nearby), else coarse meshes decide all.
-std::array<ShapeWeights, kShapeClasses> fit_shape(const TrainingSet& set, const CodecTables& start) {
+std::array<ShapeWeights, kShapeClasses> fit_shape(const TrainingSet& set) {
   std::array<LeastSquares<3>, kShapeClasses> fits;
   {
     for (const TrainingRegion& region : set.regions) {
-      for_each_vertex(
-          region, start, {}, [&](GeometryWalk& walk, const Surroundings& around, const GridPoint& position) {
-            double error = 0;
-            if (around.parallelograms > 0) {
-              // At least a 32nd of the reach: where all is flat and regular, one outlier would decide
-              // everything.
-              const double expected =
-                  std::exp2(std::max<int>({around.sizes[0], around.sizes[2], around.sizes[3] - 40}) / 8.0) /
-                  4;
-              for (int axis = 0; axis < 3; ++axis) {
-                const double parallelogram = (around.edge[axis] + around.beyond[axis]) / 16.0;
-                const double y = position[axis] - around.base[axis] - parallelogram;
-                error += std::abs(y);
-                fits[around.shape_class].add(
-                    {around.beyond[axis] / 16.0, around.ring[axis] / 16.0, around.trend[axis] / 16.0}, y,
-                    1 / ((expected + 1) * (expected + std::abs(y) + 1)));
-              }
-            }
-            walk.place(around, position, static_cast<std::uint32_t>(error),
-                       static_cast<std::uint32_t>(error / 2));
-          });
+      for_each_vertex(region, [&](GeometryWalk& walk, const Surroundings& around, IntLanes position) {
+        double error = 0;
+        if (around.parallelograms > 0) {
+          // At least a 32nd of the reach: where all is flat and regular, one outlier would decide
+          // everything.
+          const double expected =
+              std::exp2(std::max({around.logs[0], around.logs[2], around.logs[3] - 40}) / 8.0) / 4;
+          for (int axis = 0; axis < 3; ++axis) {
+            const double y = position[axis] - around.base[axis] - double{around.mean[axis]};
+            error += std::abs(y);
+            fits[around.shape_class].add({around.beyond[axis], around.ring[axis], around.trend[axis]}, y,
+                                         1 / ((expected + 1) * (expected + std::abs(y) + 1)));
+          }
+        }
+        walk.place(around, position, static_cast<std::uint32_t>(error),
+                   static_cast<std::uint32_t>(error / 2));
+      });
     }
   }
   std::array<ShapeWeights, kShapeClasses> weights;
@@ -167,33 +163,27 @@ std::array<ShapeWeights, kShapeClasses> fit_shape(const TrainingSet& set, const 
   return weights;
 }
 
-std::uint32_t magnitude_of(std::int32_t residual) { return static_cast<std::uint32_t>(std::abs(residual)); }
-
 std::array<std::array<SizeWeights, 3>, kSizeClasses> fit_size(const TrainingSet& set,
                                                               const CodecTables& start) {
+  const Predictor predictor(start, {});
   std::array<std::array<LeastSquares<kSizeFeatures>, 3>, kSizeClasses> fits;
-  const auto learn = [&](unsigned size_class, unsigned axis,
-                         const std::array<std::int16_t, kSizeFeatures>& features, std::uint32_t magnitude) {
-    std::array<double, kSizeFeatures> x;
-    std::copy(features.begin(), features.end(), x.begin());
+  const auto learn = [&](unsigned size_class, unsigned axis, const std::array<double, kSizeFeatures>& x,
+                         std::uint32_t magnitude) {
     fits[size_class][axis].add(x, 8 * std::log2(4.0 * magnitude + 2), 1);
   };
   for (const TrainingRegion& region : set.regions) {
-    for_each_vertex(
-        region, start, {}, [&](GeometryWalk& walk, const Surroundings& around, const GridPoint& position) {
-          const GridPoint residual = position - walk.predict(around);
-          const unsigned d = around.normal_axis;
-          const std::int32_t u = residual[static_cast<int>((d + 1) % 3)],
-                             w = residual[static_cast<int>((d + 2) % 3)];
-          const std::int32_t tangent = walk.tangent_residual(around, u, w);
-          const std::int32_t last = residual[static_cast<int>(d)] - tangent;
-          learn(around.size_class, 0, walk.size_features(around, 0, 0, 0), magnitude_of(u));
-          learn(around.size_class, 1, walk.size_features(around, magnitude_of(u), 0, 0), magnitude_of(w));
-          learn(around.size_class, 2,
-                walk.size_features(around, magnitude_of(u), magnitude_of(w), magnitude_of(tangent)),
-                magnitude_of(last));
-          walk.place(around, position, magnitude_of(u) + magnitude_of(w), magnitude_of(last));
-        });
+    for_each_vertex(region, [&](GeometryWalk& walk, const Surroundings& around, IntLanes position) {
+      const CodedResidual residual = residual_of(predictor, around, position);
+      const std::uint32_t u = magnitude_of(residual.u), w = magnitude_of(residual.w),
+                          last = magnitude_of(residual.last);
+      auto features = Predictor::size_features(around, log_of_magnitude(u), log_of_magnitude(w));
+      learn(around.size_class, 2, features, last);
+      features[8] = 0;
+      learn(around.size_class, 1, features, w);
+      features[7] = 0;
+      learn(around.size_class, 0, features, u);
+      walk.place(around, position, u + w, last);
+    });
   }
   std::array<std::array<SizeWeights, 3>, kSizeClasses> weights;
   for (unsigned c = 0; c < kSizeClasses; ++c) {
@@ -312,7 +302,7 @@ TrainedTables train(const std::vector<const Model*>& models) {
   tables.region.assign(region_model::kCount, fresh_model());
   tables.shape = {};
   tables.size = shipped_tables().size;
-  tables.shape = fit_shape(set, tables.view());
+  tables.shape = fit_shape(set);
   tables.size = fit_size(set, tables.view());
 
   std::vector<Sequence> parts;
@@ -329,6 +319,9 @@ TrainedTables train(const std::vector<const Model*>& models) {
   FittedBank bundle = fit_bank(set.bundles, bundle_model::kCount, bundle_symbols);
   tables.packed_region = std::move(region.packed), tables.region_is_seen = std::move(region.is_seen);
   tables.region = std::move(region.start);
+  for (unsigned m = 0; m < region_model::kCount; ++m) {
+    if (!tables.region_is_seen[m]) tables.region[m] = shipped_tables().region[m];
+  }
   tables.packed_bundle = std::move(bundle.packed), tables.bundle_is_seen = std::move(bundle.is_seen);
   tables.bundle = std::move(bundle.start);
   return tables;
@@ -337,7 +330,8 @@ TrainedTables train(const std::vector<const Model*>& models) {
 namespace {
 
 void append_models(std::string& out, const char* name, const char* count,
-                   const std::vector<PackedModel>& models, const std::vector<bool>& is_seen) {
+                   const std::vector<PackedModel>& models, const std::vector<bool>& is_seen,
+                   const std::function<std::string_view(unsigned)>& unseen) {
   char text[64];
   out += std::string("constexpr std::array<std::string_view, ") + count + "> " + name + "{\n";
   for (std::size_t m = 0; m < models.size(); ++m) {
@@ -346,6 +340,8 @@ void append_models(std::string& out, const char* name, const char* count,
       for (std::uint8_t level : models[m].levels)
         std::snprintf(text, sizeof text, "%02x", level), out += text;
       std::snprintf(text, sizeof text, "%02x%02x", models[m].uses, models[m].uses_limit), out += text;
+    } else {
+      out += unseen(static_cast<unsigned>(m));
     }
     out += m % 3 == 2 ? "\",\n" : "\",";
   }
@@ -358,8 +354,10 @@ std::string to_source(const TrainedTables& tables) {
   std::string out =
       "// Made by bench/train; see docs/FORMAT.md, \"Tables\". Do not edit: a change of any number is a "
       "change of format.\n";
-  append_models(out, "kRegionModels", "region_model::kCount", tables.packed_region, tables.region_is_seen);
-  append_models(out, "kBundleModels", "bundle_model::kCount", tables.packed_bundle, tables.bundle_is_seen);
+  append_models(out, "kRegionModels", "region_model::kCount", tables.packed_region, tables.region_is_seen,
+                shipped_region_text);
+  append_models(out, "kBundleModels", "bundle_model::kCount", tables.packed_bundle, tables.bundle_is_seen,
+                [](unsigned) { return std::string_view(); });
   char text[64];
   out += "constexpr std::array<ShapeWeights, kShapeClasses> kShapeWeights{{\n";
   for (const ShapeWeights& w : tables.shape)

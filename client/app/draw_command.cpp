@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "client/app/level_pictures.h"
 #include "client/app/model_source.h"
 #include "common/base/progress_line.h"
 #include "common/render/palette.h"
@@ -60,24 +61,46 @@ std::vector<Panel> draw_arrival(const LoadedModel& model, const DrawCommand& com
   return panels;
 }
 
-}  // namespace
+std::vector<Panel> draw_regions(const LoadedModel& model, const DrawCommand& command) {
+  return command.steps > 0 ? draw_arrival(model, command) : draw_sides(model, command);
+}
 
-Result<void> run(const DrawCommand& command) {
-  auto selection = command.selection.selection();
-  if (!selection) return forward_error(selection);
-  auto model = load_model(command.source, *selection, command.options);
-  if (!model) return forward_error(model);
-  ProgressLine line;
-  line.show("drawing");
-  const std::vector<Panel> panels =
-      command.steps > 0 ? draw_arrival(*model, command) : draw_sides(*model, command);
-  const Image sheet = make_sheet(
-      panels, {.title = fmt::format("{}: {} regions, {} triangles", model->directory.name,
-                                    model->fetched.regions, model->fetched.mesh.soup.triangles.size())});
-  line.wipe();
+Result<void> write_sheet(const DrawCommand& command, const std::vector<Panel>& panels, std::string title) {
+  const Image sheet = make_sheet(panels, {.title = std::move(title)});
   if (auto ok = write_png(command.output, sheet); !ok) return ok;
   fmt::print("{}: {} x {} pixels\n", command.output.string(), sheet.width, sheet.height);
   return {};
+}
+
+Result<void> run_levels(const DrawCommand& command) {
+  auto model = open_model(command.source, command.options);
+  if (!model) return forward_error(model);
+  const auto load = [&](const Selection& selection) -> Result<StitchedMesh> {
+    auto loaded = load_selection(*model, selection);
+    if (!loaded) return forward_error(loaded);
+    return std::move(loaded->fetched.mesh);
+  };
+  const Directory& directory = model->directory();
+  auto panels = draw_levels(directory, load, command.up, command.size);
+  if (!panels) return forward_error(panels);
+  return write_sheet(command, *panels,
+                     fmt::format("{}: {} regions, {} triangles", directory.name,
+                                 directory.real_region_count(), directory.triangles));
+}
+
+}  // namespace
+
+Result<void> run(const DrawCommand& command) {
+  if (command.levels) return run_levels(command);
+  auto model = load_model(command.source, command.selection, command.options);
+  if (!model) return forward_error(model);
+  ProgressLine line;
+  line.show("drawing");
+  const std::vector<Panel> panels = draw_regions(*model, command);
+  line.wipe();
+  return write_sheet(command, panels,
+                     fmt::format("{}: {} regions, {} triangles", model->directory.name,
+                                 model->fetched.regions, model->fetched.mesh.soup.triangles.size()));
 }
 
 }  // namespace selvage

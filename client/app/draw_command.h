@@ -16,9 +16,10 @@ struct DrawCommand {
   std::filesystem::path output;
   SelectionOptions selection;
   SourceOptions options;
-  int steps = 0;   ///< > 0: the model as it arrives, in so many pictures (dissertation Fig. 5.6), instead of
-                   ///< from four sides
-  int size = 640;  ///< pixels of one picture's longer side
+  int steps = 0;  ///< > 0: the model as it arrives, in so many pictures (dissertation Fig. 5.6), instead of
+                  ///< from four sides
+  bool levels = false;  ///< every level, a mix of them and a seam in it, with the edges of triangles
+  int size = 640;       ///< pixels of one picture's longer side
   UpAxis up = UpAxis::Y;
   bool labels = true;
 };

@@ -16,6 +16,8 @@ void print_json(const GetCommand& command, const LoadedModel& model) {
       {"output", command.output.string()},
       {"model", model.directory.name},
       {"regions", got.regions},
+      {"regions_at_level", model.regions_at_level},
+      {"max_error", model.largest_error},
       {"of_regions", model.directory.real_region_count()},
       {"vertices", got.mesh.soup.positions.size()},
       {"triangles", got.mesh.soup.triangles.size()},
@@ -36,6 +38,12 @@ void print_text(const GetCommand& command, const LoadedModel& model) {
   fmt::print("{}: {} vertices, {} of {} triangles, {} of {} regions\n", command.output.string(),
              got.mesh.soup.positions.size(), got.mesh.soup.triangles.size(), model.directory.triangles,
              got.regions, model.directory.real_region_count());
+  if (model.regions_at_level.size() > 1) {
+    std::string levels;
+    for (std::size_t level = 0; level < model.regions_at_level.size(); ++level)
+      levels += fmt::format("{}{} at level {}", level > 0 ? ", " : "", model.regions_at_level[level], level);
+    fmt::print("  regions: {}; at most {:.3g} model units off\n", levels, model.largest_error);
+  }
   fmt::print("  {} bytes in {} parts, and {} of directory", got.bytes, got.parts, model.directory_bytes);
   if (got.cached_parts > 0)
     fmt::print("; {} bytes in {} parts were cached", got.cached_bytes, got.cached_parts);
@@ -50,9 +58,7 @@ void print_text(const GetCommand& command, const LoadedModel& model) {
 Result<void> run(const GetCommand& command) {
   // Before anything is fetched: what would fail at the end anyway.
   if (auto ok = check_writable(command.output); !ok) return ok;
-  auto selection = command.selection.selection();
-  if (!selection) return forward_error(selection);
-  auto model = load_model(command.source, *selection, command.options);
+  auto model = load_model(command.source, command.selection, command.options);
   if (!model) return forward_error(model);
   auto ok = write_mesh(command.output, model->fetched.mesh.soup, {.comment = provenance(model->directory)});
   if (!ok) return ok;

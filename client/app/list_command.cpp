@@ -18,12 +18,22 @@ nlohmann::ordered_json to_json(const ModelInfo& model) {
 
 nlohmann::ordered_json to_json(RegionId id, const RegionEntry& entry, const Grid& grid) {
   const Vec3 low = grid.position(entry.box_min), high = grid.position(entry.box_max);
+  auto levels = nlohmann::ordered_json::array();
+  for (const LevelEntry& level : entry.levels) {
+    levels.push_back({{"vertices", level.vertices},
+                      {"triangles", level.triangles},
+                      {"bytes", level.part.size},
+                      {"deviation", level.deviation},
+                      {"bits", grid.bits - level.dropped_bits},
+                      {"repeats_finer", level.is_repeat}});
+  }
   return {{"region", id},
           {"vertices", entry.levels[0].vertices},
           {"triangles", entry.levels[0].triangles},
           {"bytes", entry.levels[0].part.size},
           {"box", {low.x, low.y, low.z, high.x, high.y, high.z}},
-          {"lower_neighbours", entry.lower_neighbours}};
+          {"lower_neighbours", entry.lower_neighbours},
+          {"levels", levels}};
 }
 
 /// As --regions takes it: "3,5-7".
@@ -79,6 +89,17 @@ Result<void> run(const RegionsCommand& command) {
     fmt::print("{:>7} {:>9} {:>10} {:>9}  {:.5g},{:.5g},{:.5g},{:.5g},{:.5g},{:.5g}\n", id,
                entry.levels[0].vertices, entry.levels[0].triangles, entry.levels[0].part.size, low.x, low.y,
                low.z, high.x, high.y, high.z);
+    for (std::size_t k = 1; k < entry.levels.size(); ++k) {
+      const LevelEntry& level = entry.levels[k];
+      const std::string at = fmt::format("@{}", k);
+      if (level.is_repeat) {
+        fmt::print("{:>7} {:>9}\n", at, "the same");
+        continue;
+      }
+      fmt::print("{:>7} {:>9} {:>10} {:>9}  {} bits, at most {:.3g} off\n", at, level.vertices,
+                 level.triangles, level.part.size, directory->grid.bits - level.dropped_bits,
+                 level.deviation);
+    }
   }
   for (const NamedRegions& named : directory->names)
     fmt::print("{}: {}\n", named.name, to_text(named.ranges));

@@ -1,30 +1,75 @@
 // SPDX-License-Identifier: MIT
 #include "client/app/model_source.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "client/app/progress_bar.h"
+#include "common/pack/level_choice.h"
 
 namespace selvage {
+namespace {
 
-Result<LoadedModel> load_model(const std::string& source, const Selection& selection,
-                               const SourceOptions& options) {
-  const auto begin = std::chrono::steady_clock::now();
+/// Names resolved, levels chosen.
+Result<Selection> settle(const Directory& directory, const SelectionOptions& options) {
+  auto named = options.selection();
+  if (!named) return named;
+  auto selection = resolve_names(directory, std::move(*named));
+  if (!selection) return selection;
+  if (options.max_error) return choose_by_error(directory, std::move(*selection), *options.max_error);
+  if (options.budget) return choose_by_budget(directory, std::move(*selection), *options.budget);
+  return selection;
+}
+
+void count_levels(const std::vector<PartId>& parts, LoadedModel& model) {
+  model.regions_at_level.assign(model.directory.level_count(), 0);
+  for (const PartId& id : parts) {
+    if (id.kind != PartKind::Region || id.region == kLooseRegion) continue;
+    ++model.regions_at_level[id.level];
+    model.largest_error = std::max(model.largest_error, level_error(model.directory, id.region, id.level));
+  }
+}
+
+}  // namespace
+
+Result<Model> open_model(const std::string& source, const SourceOptions& options) {
   auto model_options = options.model_options();
   if (!model_options) return forward_error(model_options);
-  auto model = Model::open(source, std::move(*model_options));
-  if (!model) return forward_error(model);
-  LoadedModel loaded{
-      model->directory(), model->directory_bytes(), {}, std::chrono::steady_clock::now() - begin};
+  return Model::open(source, std::move(*model_options));
+}
+
+Result<LoadedModel> load_selection(Model& model, const Selection& selection) {
+  LoadedModel loaded;
+  loaded.directory = model.directory();
+  loaded.directory_bytes = model.directory_bytes();
+  auto parts = select_parts(loaded.directory, selection);
+  if (!parts) return forward_error(parts);
+  count_levels(*parts, loaded);
 
   ProgressBar bar;
   FetchEvents events;
   events.on_progress = [&](const FetchProgress& progress) { bar.show(progress); };
   events.on_retry = [&](const Error& error, auto delay) { bar.show_retry(error, delay); };
-  auto fetched = model->fetch(selection, std::move(events)).wait();
+  auto fetched = model.fetch(selection, std::move(events)).wait();
   bar.wipe();
   if (!fetched) return forward_error(fetched);
   loaded.fetched = std::move(*fetched);
+  return loaded;
+}
+
+Result<LoadedModel> load_model(const std::string& source, const SelectionOptions& selection,
+                               const SourceOptions& options) {
+  // Malformed options are told before anything is opened.
+  if (auto ok = selection.selection(); !ok) return forward_error(ok);
+  const auto begin = std::chrono::steady_clock::now();
+  auto model = open_model(source, options);
+  if (!model) return forward_error(model);
+  const std::chrono::duration<double> time_to_open = std::chrono::steady_clock::now() - begin;
+  auto settled = settle(model->directory(), selection);
+  if (!settled) return forward_error(settled, source);
+  auto loaded = load_selection(*model, *settled);
+  if (loaded) loaded->time_to_open = time_to_open;
   return loaded;
 }
 

@@ -5,8 +5,11 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <string>
+#include <vector>
 
+#include "client/app/selection_options.h"
 #include "client/app/source_options.h"
 #include "client/fetch/model.h"
 
@@ -16,13 +19,21 @@ struct LoadedModel {
   Directory directory;
   std::uint64_t directory_bytes = 0;
   FetchedModel fetched;
+  std::vector<std::uint32_t> regions_at_level;  ///< of those fetched, up to the coarsest level there is
+  double largest_error = 0;                     ///< of them, in model units, see level_error
   std::chrono::duration<double>
       time_to_open{};  ///< until the directory was there; `fetched` counts from then
 };
 
-/// `source` as in Model::open. Errors name it.
-Result<LoadedModel> load_model(const std::string& source, const Selection& selection = {},
+/// Opens and fetches what was selected, with progress on a terminal. `source` as in Model::open. Errors name
+/// it.
+Result<LoadedModel> load_model(const std::string& source, const SelectionOptions& selection = {},
                                const SourceOptions& options = {});
+
+/// The same of a model that is open already; time_to_open stays 0.
+Result<LoadedModel> load_selection(Model& model, const Selection& selection);
+
+Result<Model> open_model(const std::string& source, const SourceOptions& options);
 
 /// The directory alone.
 Result<Directory> load_directory(const std::string& source, const ServerOptions& options = {});

@@ -78,6 +78,11 @@ void add(CLI::App& app, DrawCommand& command) {
   draw.add_option("-o,--output", command.output, "the picture to write")->required();
   draw.add_option("--steps", command.steps, "draw the model as it arrives, in so many pictures")
       ->check(CLI::Range(1, 100));
+  draw.add_flag(
+          "--levels", command.levels,
+          "draw the whole model at each level of detail, at a mix of them, and a seam in it, with the edges "
+          "of its triangles")
+      ->excludes("--steps");
   draw.add_option("--size", command.size, "pixels of one picture's width")
       ->check(CLI::Range(64, 4096))
       ->capture_default_str();
@@ -91,6 +96,7 @@ void add(CLI::App& app, DrawCommand& command) {
       "Examples:\n"
       "  selvage-client draw bunny.selvage -o bunny.png\n"
       "  selvage-client draw localhost:7878/bunny --steps 6 -o arrival.png\n"
+      "  selvage-client draw localhost:7878/bunny --levels -o levels.png\n"
       "  selvage-client draw site.selvage --up z --regions 12-20 -o roof.png");
 }
 

@@ -8,21 +8,43 @@
 namespace selvage {
 namespace {
 
-using Decoder = EntropyDecoder<2>;
+using Decoder = EntropyDecoder;
 
 tl::unexpected<Error> corrupt(const char* what) {
   return fail(ErrorCode::BadStream, std::string("region part: corrupt attributes, ") + what);
 }
 
-std::uint32_t magnitude_of(std::int32_t residual) { return static_cast<std::uint32_t>(std::abs(residual)); }
-
-/// kMaxResidual stands for anything beyond what an encoder writes.
-std::int32_t decode_residual(Decoder& in, unsigned model, const SizeClass& size) {
-  std::uint32_t coarse = in.symbol(model);
-  if (coarse == kMagnitudeEscape) coarse += std::min(in.number(region_model::kExcess), kMaxResidual);
-  if (coarse > kMaxResidual >> size.raw_low_bits) return static_cast<std::int32_t>(kMaxResidual);
-  return in.signed_bits(coarse, size.raw_low_bits);
+/// The part of a magnitude above its low bits. What no encoder writes becomes kMaxResidual.
+inline std::uint32_t decode_coarse(Decoder& in, unsigned symbol, const SizeClass& size) {
+  if (symbol != kMagnitudeEscape) [[likely]]
+    return symbol;
+  const std::uint32_t excess = std::min(in.number(region_model::kExcess), kMaxResidual);
+  return std::min(symbol + excess, kMaxResidual >> size.raw_low_bits);
 }
+
+/// A residual of which the model told `coarse`.
+struct Coarse {
+  std::uint32_t coarse;
+  int low_bits;
+  int bits;  ///< raw ones: a sign unless the residual must be 0, and the low bits above it
+  Coarse(std::uint32_t magnitude, const SizeClass& size)
+      : coarse(magnitude),
+        low_bits(size.raw_low_bits),
+        bits(low_bits + ((magnitude | static_cast<unsigned>(low_bits)) != 0)) {}
+  std::int32_t with(std::uint32_t raw) const {
+    const auto magnitude = static_cast<std::int32_t>(coarse << low_bits | raw >> 1);
+    const auto sign = static_cast<std::int32_t>(raw & 1);
+    return (magnitude ^ -sign) + sign;
+  }
+};
+
+/// The box in lanes; anything goes in the last one.
+struct LaneBox {
+  IntLanes low, high;
+  explicit LaneBox(const GridBox& box)
+      : low{box.low.x, box.low.y, box.low.z, INT32_MIN},
+        high{box.high.x, box.high.y, box.high.z, INT32_MAX} {}
+};
 
 bool decode_blends(Decoder& in, Blends& blends) {
   blends.shape = in.symbol(region_model::kShape);
@@ -38,23 +60,45 @@ bool decode_offset(Decoder& in, const GridBox& box, GridPoint& position) {
   return box.holds(position) && in.ok();
 }
 
-/// A position that something predicts.
-GridPoint decode_position(Decoder& in, GeometryWalk& walk, const Surroundings& around) {
-  const unsigned d = around.normal_axis;
-  const SizeClass first = walk.size_class(around, 0, 0, 0, 0);
-  const std::int32_t u = decode_residual(in, magnitude_model(0, around, first), first);
-  const SizeClass second = walk.size_class(around, 1, magnitude_of(u), 0, 0);
-  const std::int32_t w = decode_residual(in, magnitude_model(1, around, second), second);
-  const std::int32_t tangent = walk.tangent_residual(around, u, w);
-  const SizeClass third = walk.size_class(around, 2, magnitude_of(u), magnitude_of(w), magnitude_of(tangent));
-  const std::int32_t last = decode_residual(in, magnitude_model(2, around, third), third);
-  const std::int32_t n = last + tangent;
-  GridPoint position = walk.predict(around);
-  position.x += d == 0 ? n : d == 1 ? w : u;
-  position.y += d == 0 ? u : d == 1 ? n : w;
-  position.z += d == 0 ? w : d == 1 ? u : n;
-  walk.place(around, position, magnitude_of(u) + magnitude_of(w), magnitude_of(last));
-  return position;
+/// x, y, z of a residual along the normal axis and the two after it.
+IntLanes along_axes(unsigned normal_axis, std::int32_t n, std::int32_t u, std::int32_t w) {
+  static constexpr IntLanes kLanes[3] = {{-1, 0, 0, 0}, {0, -1, 0, 0}, {0, 0, -1, 0}};
+  const IntLanes first = kLanes[normal_axis], second = __builtin_shufflevector(first, first, 2, 0, 1, 3),
+                 third = __builtin_shufflevector(first, first, 1, 2, 0, 3);
+  return (first & n) | (second & u) | (third & w);
+}
+
+/// A position that something predicts. One outside the box is pulled in, and remembered.
+void decode_position(Decoder& in, const Predictor& predictor, const Surroundings& around, const LaneBox& box,
+                     GeometryWalk& walk, IntLanes& outside) {
+  const IntLanes expected = predictor.expected_sizes(around);
+  const SizeClass first = predictor.size_class(around, expected, 0, 0, 0);
+  const unsigned symbol_u = in.symbol(magnitude_model(0, around, first));
+  const std::uint32_t coarse_u = decode_coarse(in, symbol_u, first);
+  const std::int32_t log_u = coarse_log(symbol_u, first);
+  const SizeClass second = predictor.size_class(around, expected, 1, log_u, 0);
+  const unsigned symbol_w = in.symbol(magnitude_model(1, around, second));
+  const std::uint32_t coarse_w = decode_coarse(in, symbol_w, second);
+  const std::int32_t log_w = coarse_log(symbol_w, second);
+  const SizeClass third = predictor.size_class(around, expected, 2, log_u, log_w);
+  const unsigned symbol_last = in.symbol(magnitude_model(2, around, third));
+  const std::uint32_t coarse_last = decode_coarse(in, symbol_last, third);
+  const Coarse coarse[] = {{coarse_u, first}, {coarse_w, second}, {coarse_last, third}};
+  const int all_bits = coarse[0].bits + coarse[1].bits + coarse[2].bits;
+  const bool is_long = all_bits > 32;
+  in.expect_bits(is_long ? coarse[0].bits : all_bits);
+  const std::int32_t u = coarse[0].with(in.bits_at_hand(coarse[0].bits));
+  if (is_long) [[unlikely]]
+    in.expect_bits(coarse[1].bits);
+  const std::int32_t w = coarse[1].with(in.bits_at_hand(coarse[1].bits));
+  if (is_long) [[unlikely]]
+    in.expect_bits(coarse[2].bits);
+  const std::int32_t last = coarse[2].with(in.bits_at_hand(coarse[2].bits));
+  const std::int32_t tangent = predictor.tangent_residual(around, u, w);
+  const IntLanes position = predictor.predict(around) + along_axes(around.normal_axis, last + tangent, u, w);
+  const IntLanes within = clamped(position, box.low, box.high);
+  outside |= within ^ position;
+  walk.place(around, within, magnitude_of(u) + magnitude_of(w), magnitude_of(last));
 }
 
 std::vector<bool> decode_turned(Decoder& in, std::uint32_t triangles) {
@@ -86,24 +130,28 @@ bool decode_anchors(Decoder& in, RegionMesh& mesh) {
 }  // namespace
 
 // In step with encode_positions.
-Result<void> decode_positions(Decoder& in, const GridBox& box, const CodecTables& tables, RegionMesh& mesh) {
+Result<void> decode_positions(Decoder& in, const GridBox& box, std::uint32_t vertices,
+                              const CodecTables& tables, RegionMesh& mesh) {
   Blends blends;
   if (!decode_blends(in, blends)) return corrupt("impossible blends");
-  GeometryWalk walk(std::move(mesh.table), tables, blends, box.extent());
+  const Predictor predictor(tables, blends);
+  const LaneBox lane_box(box);
+  GeometryWalk walk(std::move(mesh.table), vertices, box.extent());
+  IntLanes outside{};
   for (Surroundings around; walk.next_vertex(around);) {
-    GridPoint position;
-    bool is_sound;
-    if (around.neighbours == 0) {
-      is_sound = decode_offset(in, box, position);
-      walk.place_first(position);
-    } else {
-      position = decode_position(in, walk, around);
-      is_sound = box.holds(position) && in.ok();
+    if (around.has_neighbours) {
+      decode_position(in, predictor, around, lane_box, walk, outside);
+      continue;
     }
-    if (!is_sound) return corrupt("a position outside the box");
+    GridPoint position;
+    if (!decode_offset(in, box, position)) return corrupt("a position outside the box");
+    walk.place_first(position);
   }
-  mesh.table = walk.take_table();
+  if (!in.ok() || (outside[0] | outside[1] | outside[2]) != 0) return corrupt("a position outside the box");
+  if (!walk.is_complete() || walk.count() != vertices) return corrupt("not the promised number of vertices");
   mesh.positions = walk.positions();
+  mesh.table = walk.take_table();
+  mesh.loops = find_boundary_loops(mesh.table, walk.border_vertices());
   return {};
 }
 

@@ -10,14 +10,14 @@ namespace selvage {
 
 // The mirrors of server/encode/attribute_encoder.h.
 
-/// Numbers the vertices of `mesh.table` in coding order and fills the positions.
-Result<void> decode_positions(EntropyDecoder<2>& in, const GridBox& box, const CodecTables& tables,
-                              RegionMesh& mesh);
+/// Numbers the vertices of `mesh.table`, which must be `vertices` fans of corners, in coding order; fills
+/// positions and loops.
+Result<void> decode_positions(EntropyDecoder& in, const GridBox& box, std::uint32_t vertices,
+                              const CodecTables& tables, RegionMesh& mesh);
 /// `count` positions that no triangle connects; each must cost bits, or the caller has bounded it.
-Result<void> decode_loose_positions(EntropyDecoder<2>& in, std::uint32_t count, const GridBox& box,
+Result<void> decode_loose_positions(EntropyDecoder& in, std::uint32_t count, const GridBox& box,
                                     RegionMesh& mesh);
 /// Fills turned bits and anchors. Needs the boundary loops; checks that the stream ends here.
-Result<void> decode_turned_and_anchors(EntropyDecoder<2>& in, const RegionPartHeader& header,
-                                       RegionMesh& mesh);
+Result<void> decode_turned_and_anchors(EntropyDecoder& in, const RegionPartHeader& header, RegionMesh& mesh);
 
 }  // namespace selvage

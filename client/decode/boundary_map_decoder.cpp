@@ -11,7 +11,7 @@
 namespace selvage {
 namespace {
 
-using Decoder = EntropyDecoder<2>;
+using Decoder = EntropyDecoder;
 
 tl::unexpected<Error> corrupt(const char* what) {
   return fail(ErrorCode::BadStream, std::string("region part: corrupt boundary map, ") + what);

@@ -115,7 +115,7 @@ class BundleDecoder {
   }
 
   const BundleTopology& topology_;
-  EntropyDecoder<1> in_;
+  EntropyDecoder in_;
   JoinProgress progress_;
   std::uint32_t next_own_ = 0;
   bool has_turned_ = false, last_turned_ = false;

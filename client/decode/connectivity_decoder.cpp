@@ -15,7 +15,7 @@ tl::unexpected<Error> corrupt(const char* what) {
 
 /// A count and then that many numbers, each read by `read_one`, which says whether it is sound.
 template <class ReadOne>
-bool read_list(EntropyDecoder<2>& in, unsigned count_model, std::uint32_t limit, ReadOne read_one) {
+bool read_list(EntropyDecoder& in, unsigned count_model, std::uint32_t limit, ReadOne read_one) {
   const std::uint32_t count = in.number(count_model);
   if (count > limit) return false;
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -26,7 +26,7 @@ bool read_list(EntropyDecoder<2>& in, unsigned count_model, std::uint32_t limit,
 
 }  // namespace
 
-Result<CornerTable> decode_connectivity(EntropyDecoder<2>& in, std::uint32_t triangles) {
+Result<CornerTable> decode_connectivity(EntropyDecoder& in, std::uint32_t triangles) {
   // In step with encode_connectivity. Symbols beyond the region's own triangles belong to fans around virtual
   // vertices: each such triangle has an edge on a boundary loop, so there are fewer of them than there are
   // edges.
@@ -69,7 +69,7 @@ Result<CornerTable> decode_connectivity(EntropyDecoder<2>& in, std::uint32_t tri
   });
   if (!virtuals_are_sound) return corrupt("impossible virtual vertex");
   auto connectivity = finish_connectivity(std::move(grown), virtual_vertices);
-  if (!connectivity) return corrupt("virtual vertices that share a neighbour's fan");
+  if (!connectivity) return corrupt("virtual vertices out of order");
   return std::move(connectivity->table);
 }
 

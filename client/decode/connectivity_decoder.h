@@ -11,6 +11,6 @@ namespace selvage {
 
 /// The mirror of server/encode/connectivity_encoder.h. Time and memory are linear in `triangles`, which the
 /// caller bounds: the region's own triangles, fans around virtual vertices not counted.
-Result<CornerTable> decode_connectivity(EntropyDecoder<2>& in, std::uint32_t triangles);
+Result<CornerTable> decode_connectivity(EntropyDecoder& in, std::uint32_t triangles);
 
 }  // namespace selvage

@@ -9,7 +9,7 @@
 namespace selvage {
 namespace {
 
-std::uint64_t decode_uniform(EntropyDecoder<2>& in, std::uint64_t count) {
+std::uint64_t decode_uniform(EntropyDecoder& in, std::uint64_t count) {
   const int length = static_cast<int>(std::bit_width(count)) - 1;
   const std::uint64_t short_ones = (std::uint64_t{2} << length) - count;
   const std::uint64_t value = in.bits(length);
@@ -17,7 +17,7 @@ std::uint64_t decode_uniform(EntropyDecoder<2>& in, std::uint64_t count) {
 }
 
 // In step with encode_one of server/encode/exact_encoder.cpp.
-bool decode_one(EntropyDecoder<2>& in, ExactAxis& axis, const FloatCell& cell, std::int32_t coordinate,
+bool decode_one(EntropyDecoder& in, ExactAxis& axis, const FloatCell& cell, std::int32_t coordinate,
                 float& value) {
   const auto [seen, is_new] = axis.seen.try_emplace(coordinate, 0.0f);
   const unsigned symbol = in.symbol(region_model::kExact + axis.last_symbol);
@@ -42,7 +42,7 @@ bool decode_one(EntropyDecoder<2>& in, ExactAxis& axis, const FloatCell& cell, s
 }  // namespace
 
 Result<std::vector<ExactPosition>> decode_exact(std::span<const GridPoint> positions, const Grid& grid,
-                                                EntropyDecoder<2>& in) {
+                                                EntropyDecoder& in) {
   std::array<ExactAxis, 3> axes;
   std::vector<ExactPosition> exact(positions.size());
   for (std::size_t v = 0; v < positions.size(); ++v) {

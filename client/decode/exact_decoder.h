@@ -13,6 +13,6 @@ namespace selvage {
 
 /// The mirror of server/encode/exact_encoder.h. Gives no NaN and no infinity.
 Result<std::vector<ExactPosition>> decode_exact(std::span<const GridPoint> positions, const Grid& grid,
-                                                EntropyDecoder<2>& in);
+                                                EntropyDecoder& in);
 
 }  // namespace selvage

@@ -15,7 +15,7 @@ namespace selvage {
 namespace {
 
 /// Loose vertices have no triangles; all of them are boundary vertices.
-bool decode_loose_vertices(EntropyDecoder<2>& in, std::uint32_t expected, RegionMesh& mesh) {
+bool decode_loose_vertices(EntropyDecoder& in, std::uint32_t expected, RegionMesh& mesh) {
   const std::uint32_t count = in.number(region_model::kLooseCount);
   if (count == 0 || count != expected) return false;
   mesh.table.set_corner_of_vertex(count);
@@ -37,7 +37,7 @@ Result<RegionMesh> decode_region(std::span<const std::byte> bytes, const DecodeL
   ByteReader reader(bytes);
   auto header = read_region_header(reader);
   if (!header) return forward_error(header);
-  EntropyDecoder<2> in(bytes.subspan(1), tables.region);
+  EntropyDecoder in(bytes.subspan(1), tables.region);
 
   const int dropped_bits = expected.coarse ? expected.coarse->dropped_bits : 0;
   const GridBox box = drop_bits({expected.box_min, expected.box_max}, dropped_bits);
@@ -55,9 +55,7 @@ Result<RegionMesh> decode_region(std::span<const std::byte> bytes, const DecodeL
     if (!table) return forward_error(table);
     if (table->triangle_count() != expected.triangles) return mismatch();
     mesh.table = std::move(*table);
-    if (auto ok = decode_positions(in, box, tables, mesh); !ok) return forward_error(ok);
-    if (mesh.table.vertex_count() != expected.vertices) return mismatch();
-    mesh.loops = find_boundary_loops(mesh.table);
+    if (auto ok = decode_positions(in, box, expected.vertices, tables, mesh); !ok) return forward_error(ok);
   } else {
     if (!decode_loose_vertices(in, expected.vertices, mesh)) return mismatch();
     if (auto ok = decode_loose_positions(in, expected.vertices, box, mesh); !ok) return forward_error(ok);

@@ -72,4 +72,6 @@ const CodecTables& shipped_tables() {
   return tables;
 }
 
+std::string_view shipped_region_text(unsigned model) { return kRegionModels[model]; }
+
 }  // namespace selvage

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #include "common/coding/symbol_models.h"
 
@@ -75,8 +76,8 @@ inline constexpr unsigned kShapeClasses = 64;
 
 /// The logarithm of a residual's size as a linear function of other logarithms, in 256ths: tangential and
 /// normal residuals nearby, spread, reach, recent tangential and normal residuals, a constant, and the
-/// residuals of the same vertex that are known already: first axis, second axis, tangent plane.
-inline constexpr unsigned kSizeFeatures = 10;
+/// residuals of the same vertex that are known already: first axis, second axis.
+inline constexpr unsigned kSizeFeatures = 9;
 inline constexpr unsigned kCommonSizeFeatures = 7;
 using SizeWeights = std::array<std::int16_t, kSizeFeatures>;
 inline constexpr unsigned kSizeClasses = 4;  ///< parallelograms: 0, 1, 2, 3 and more
@@ -98,5 +99,7 @@ StartModel unpack(const PackedModel& packed);
 
 /// The tables of this format version.
 const CodecTables& shipped_tables();
+/// A region model as the tables spell it, for training to keep what it does not see.
+std::string_view shipped_region_text(unsigned model);
 
 }  // namespace selvage

@@ -2,6 +2,7 @@
 #include "common/codec/connectivity.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace selvage {
 namespace {
@@ -13,42 +14,58 @@ bool is_strictly_ascending_below(std::span<const VertexId> vertices, std::uint32
   return true;
 }
 
-/// Compacts the table to the triangles that touch no virtual vertex; returns their grown numbers.
-std::vector<TriangleId> drop_virtual_fans(CornerTable& table, std::span<const VertexId> virtual_vertices) {
-  std::vector<bool> is_virtual(table.vertex_count(), false);
-  for (VertexId v : virtual_vertices) is_virtual[v] = true;
-  std::vector<TriangleId> kept;
-  std::vector<TriangleId> new_of_grown(table.triangle_count(), kNone);
-  for (TriangleId t = 0; t < table.triangle_count(); ++t) {
-    const auto [a, b, c] = table.triangle(t);
-    if (is_virtual[a] || is_virtual[b] || is_virtual[c]) continue;
-    new_of_grown[t] = static_cast<TriangleId>(kept.size());
-    kept.push_back(t);
+/// The triangles around virtual vertices, ascending. Nothing if a vertex is not inside the mesh.
+std::optional<std::vector<TriangleId>> virtual_fans(const CornerTable& table,
+                                                    std::span<const VertexId> virtual_vertices) {
+  std::vector<TriangleId> fans;
+  for (VertexId v : virtual_vertices) {
+    const CornerId first = table.corner_of_vertex[v];
+    if (first == kNone) return std::nullopt;
+    CornerId c = first;
+    do {
+      fans.push_back(triangle_of(c));
+      c = table.swing_ccw(c);
+      if (c == kNone) return std::nullopt;
+    } while (c != first);
   }
-  for (TriangleId t = 0; t < kept.size(); ++t) {
-    for (CornerId k = 0; k < 3; ++k) {
-      const CornerId grown = 3 * kept[t] + k;
-      const CornerId across = table.opposite[grown];
-      const TriangleId neighbour = across == kNone ? kNone : new_of_grown[triangle_of(across)];
-      table.vertex_of_corner[3 * t + k] = table.vertex_of_corner[grown];
-      table.opposite[3 * t + k] = neighbour == kNone ? kNone : 3 * neighbour + across % 3;
-    }
-  }
-  table.vertex_of_corner.resize(3 * kept.size());
-  table.opposite.resize(3 * kept.size());
-  table.set_corner_of_vertex(table.vertex_count());
-  return kept;
+  std::sort(fans.begin(), fans.end());
+  fans.erase(std::unique(fans.begin(), fans.end()), fans.end());
+  return fans;
 }
 
-/// Taking fans away may leave a vertex that two of them shared with two fans of its own.
-bool has_two_open_fans(const CornerTable& table) {
-  std::vector<bool> is_open(table.vertex_count(), false);
-  for (CornerId c = 0; c < table.corner_count(); ++c) {
-    if (table.opposite[prev(c)] != kNone) continue;
-    if (is_open[table.vertex(c)]) return true;
-    is_open[table.vertex(c)] = true;
+void open_edges(CornerTable& table, TriangleId t) {
+  for (CornerId c = 3 * t; c < 3 * t + 3; ++c) {
+    if (table.opposite[c] != kNone) table.opposite[table.opposite[c]] = kNone;
+    table.opposite[c] = kNone;
   }
-  return false;
+}
+
+void move_triangle(CornerTable& table, TriangleId from, TriangleId to) {
+  for (CornerId k = 0; k < 3; ++k) {
+    const CornerId across = table.opposite[3 * from + k];
+    table.vertex_of_corner[3 * to + k] = table.vertex_of_corner[3 * from + k];
+    table.opposite[3 * to + k] = across;
+    if (across != kNone) table.opposite[across] = 3 * to + k;
+  }
+}
+
+/// Takes triangles away; the last ones of those that stay move to the places that fall free, lowest place
+/// first. Returns their former numbers.
+std::vector<TriangleId> drop_triangles(CornerTable& table, std::span<const TriangleId> dropped) {
+  std::vector<TriangleId> former(table.triangle_count());
+  std::iota(former.begin(), former.end(), TriangleId{0});
+  for (TriangleId t : dropped) open_edges(table, t);
+  TriangleId end = table.triangle_count();
+  for (std::size_t low = 0, high = dropped.size(); low < high; ++low) {
+    while (low < high && dropped[high - 1] == end - 1) --high, --end;
+    if (low == high) break;
+    move_triangle(table, --end, dropped[low]);
+    former[dropped[low]] = end;
+  }
+  former.resize(end);
+  table.vertex_of_corner.resize(3 * std::size_t{end});
+  table.opposite.resize(3 * std::size_t{end});
+  return former;
 }
 
 }  // namespace
@@ -56,11 +73,10 @@ bool has_two_open_fans(const CornerTable& table) {
 std::optional<Connectivity> finish_connectivity(CornerTable grown,
                                                 std::span<const VertexId> virtual_vertices) {
   if (!is_strictly_ascending_below(virtual_vertices, grown.vertex_count())) return std::nullopt;
+  const auto dropped = virtual_fans(grown, virtual_vertices);
+  if (!dropped) return std::nullopt;
   Connectivity result;
-  if (!virtual_vertices.empty()) {
-    result.grown_of_triangle = drop_virtual_fans(grown, virtual_vertices);
-    if (has_two_open_fans(grown)) return std::nullopt;
-  }
+  if (!dropped->empty()) result.grown_of_triangle = drop_triangles(grown, *dropped);
   result.table = std::move(grown);
   return result;
 }

@@ -19,8 +19,9 @@ struct Connectivity {
 };
 
 /// A region's boundary loops other than its outer one are coded as if closed by a fan around a virtual
-/// vertex. Takes those fans away again. Nothing if the virtual vertices
-/// are not ascending, out of range, or leave a vertex with two fans: the stream is corrupt.
+/// vertex. Takes those fans away again. Nothing if the virtual vertices are not ascending, out of range, or
+/// not inside the mesh: the stream is corrupt. Leaves corner_of_vertex behind the times: for GeometryWalk, a
+/// vertex is a fan.
 std::optional<Connectivity> finish_connectivity(CornerTable grown,
                                                 std::span<const VertexId> virtual_vertices);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The region part's layout (docs/FORMAT.md, "Region part"): one byte of version and flags, then everything
-// else in one entropy-coded span of two states: connectivity, blends, positions, the floats behind them,
+// else in one entropy-coded span: connectivity, blends, positions, the floats behind them,
 // turned bits, anchors.
 //
 //   u8      low 4 bits kRegionPartVersion, then has_turned, has_anchors, has_exact, is_coarse
@@ -55,9 +55,9 @@ inline GridBox drop_bits(const GridBox& box, int dropped) {
 GridPoint restore_bits(const GridPoint& p, int dropped);
 
 /// One axis of a residual: magnitude m is split at the class's raw_low_bits k. m >> k is a symbol 0..14, or
-/// 15 and the excess as a number; then, unless m is 0, the k low bits and the sign above them. Mirrors:
-/// server/encode/attribute_encoder.cpp, client/decode/attribute_decoder.cpp.
-inline constexpr std::uint32_t kMagnitudeEscape = 15;
+/// kMagnitudeEscape and the excess as a number. After the symbols of all three axes come, for each axis
+/// unless both m >> k and k are 0, the sign and the k low bits. Mirrors: server/encode/attribute_encoder.cpp,
+/// client/decode/attribute_decoder.cpp.
 inline unsigned magnitude_model(unsigned axis, const Surroundings& around, const SizeClass& size) {
   const unsigned several = around.parallelograms >= 2;
   return region_model::kMagnitude + (axis * 2 + several) * region_model::kMagnitudes + size.magnitude;
@@ -66,6 +66,19 @@ inline unsigned magnitude_model(unsigned axis, const Surroundings& around, const
 inline constexpr std::uint32_t kRunEscape = 15;
 /// More than any valid residual can be: predictions lie within 2^28 of the grid.
 inline constexpr std::uint32_t kMaxResidual = 1u << 29;
+
+/// What is coded of a vertex: residuals along the two tangential axes, what the tangent plane makes of them
+/// along the normal axis, and what is left there.
+struct CodedResidual {
+  std::int32_t u, w, tangent, last;
+};
+inline CodedResidual residual_of(const Predictor& predictor, const Surroundings& around, IntLanes position) {
+  const IntLanes residual = position - predictor.predict(around);
+  const unsigned d = around.normal_axis;
+  const std::int32_t u = residual[d == 2 ? 0 : d + 1], w = residual[d == 0 ? 2 : d - 1];
+  const std::int32_t tangent = predictor.tangent_residual(around, u, w);
+  return {u, w, tangent, residual[d] - tangent};
+}
 
 /// The order that anchor gaps count in: boundary vertices by boundary index, then the others.
 std::vector<VertexId> anchor_order(const BoundaryLoops& loops, std::uint32_t vertex_count);

@@ -16,7 +16,6 @@ void EntropyEncoder::number(unsigned length_model, std::uint32_t value) {
   if (length > 1) bits(value - (1u << (length - 1)), length - 1);
 }
 
-template <int States>
 EntropyEncoder::Coded EntropyEncoder::finish(std::span<const StartModel> start) const {
   SymbolModels models(start);
   std::vector<std::uint32_t> ranges;  // start in the high half, frequency in the low one
@@ -27,15 +26,13 @@ EntropyEncoder::Coded EntropyEncoder::finish(std::span<const StartModel> start) 
     ranges.push_back(range.start << 16 | range.frequency);
   }
 
-  std::array<std::uint32_t, States> states;
-  states.fill(kStateLow);
+  std::uint32_t state = kStateLow;
   std::vector<std::uint16_t> words;  // in the order of coding, which is the reverse of the order of reading
-  words.reserve(ranges.size() / 4 + 2 * States);
+  words.reserve(ranges.size() / 4 + 2);
   std::size_t words_behind_mark = 0;
   for (std::size_t i = ranges.size(); i-- > 0;) {
     if (i + 1 == mark_) words_behind_mark = words.size();
     const std::uint32_t begin = ranges[i] >> 16, frequency = ranges[i] & 0xFFFF;
-    std::uint32_t& state = states[i % States];
     // The largest state that `frequency` still fits below 2^32: one word out is always enough.
     if ((state >> 17) >= frequency) {
       words.push_back(static_cast<std::uint16_t>(state));
@@ -43,10 +40,8 @@ EntropyEncoder::Coded EntropyEncoder::finish(std::span<const StartModel> start) 
     }
     state = (state / frequency << kProbabilityBits) + state % frequency + begin;
   }
-  for (int s = States; s-- > 0;) {
-    words.push_back(static_cast<std::uint16_t>(states[s]));
-    words.push_back(static_cast<std::uint16_t>(states[s] >> 16));
-  }
+  words.push_back(static_cast<std::uint16_t>(state));
+  words.push_back(static_cast<std::uint16_t>(state >> 16));
 
   Coded coded;
   if (mark_ > 0) coded.bytes_to_mark = 2 * (words.size() - words_behind_mark);
@@ -60,8 +55,5 @@ EntropyEncoder::Coded EntropyEncoder::finish(std::span<const StartModel> start) 
   out.insert(out.end(), raw_.rbegin(), raw_.rend());
   return coded;
 }
-
-template EntropyEncoder::Coded EntropyEncoder::finish<1>(std::span<const StartModel>) const;
-template EntropyEncoder::Coded EntropyEncoder::finish<2>(std::span<const StartModel>) const;
 
 }  // namespace selvage

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Range asymmetric numeral systems [Duda 2014], 32-bit states, 16-bit renormalisation, for symbols; plain
+// Range asymmetric numeral systems [Duda 2014], a 32-bit state, 16-bit renormalisation, for symbols; plain
 // bits for what no model helps with. One span holds both: words from its front, bits from its back.
 //
-//   | words of the states, forwards --> | <-- bits, backwards |
+//   | words of the state, forwards  --> | <-- bits, backwards |
 //
 // rANS decodes last-in first-out, so the encoder only takes notes and does the work in finish(). Mirror:
 // entropy_decoder.h.
@@ -50,9 +50,7 @@ class EntropyEncoder {
     Bytes bytes;
     std::size_t bytes_to_mark = 0;  ///< of symbols, give or take a few
   };
-  /// Codes everything noted, with models that begin as `start`. `States` interleaved states (1 for short
-  /// streams, 2 where speed counts) cost two bytes each; the decoder must be made for the same number.
-  template <int States>
+  /// Codes everything noted, with models that begin as `start`.
   Coded finish(std::span<const StartModel> start) const;
 
  private:
@@ -63,8 +61,5 @@ class EntropyEncoder {
   std::uint64_t bit_count_ = 0;
   std::size_t mark_ = 0;
 };
-
-extern template EntropyEncoder::Coded EntropyEncoder::finish<1>(std::span<const StartModel>) const;
-extern template EntropyEncoder::Coded EntropyEncoder::finish<2>(std::span<const StartModel>) const;
 
 }  // namespace selvage

@@ -7,6 +7,7 @@
 // a start state that is copied in one go. An unused symbol costs 2^-15 of the range.
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <span>
@@ -48,7 +49,7 @@ class SymbolModels {
   std::size_t size() const { return rates_.size(); }
 
   SymbolRange range(unsigned model, unsigned symbol) const {
-    const std::uint16_t* c = &cumulative_[model * kSymbols + symbol];
+    const std::uint16_t* c = entries(model) + symbol;
     // Behind the last symbol lies the next model's first entry, 0, which stands for 2^15 modulo 2^15.
     return {c[0], static_cast<std::uint32_t>(c[1] - c[0]) & (kProbabilityOne - 1)};
   }
@@ -60,9 +61,13 @@ class SymbolModels {
   void update(unsigned model, unsigned symbol);
 
  private:
+  /// Sixteen bits each: a store to a byte could change anything, as far as the compiler knows.
   struct Rate {
-    std::uint8_t uses, uses_limit;
+    std::uint16_t uses, uses_limit;
   };
+
+  std::uint16_t* entries(unsigned model) { return &cumulative_[model * kSymbols]; }
+  const std::uint16_t* entries(unsigned model) const { return &cumulative_[model * kSymbols]; }
 
   std::vector<std::uint16_t> cumulative_;  ///< kSymbols a model, and one 0 behind the last
   std::vector<Rate> rates_;
@@ -85,36 +90,64 @@ consteval ModelTargets make_model_targets() {
 }
 inline constexpr ModelTargets kModelTargets = make_model_targets();
 
+/// bit_width of a number of uses.
+inline constexpr auto kShiftOfUses = [] {
+  std::array<std::uint8_t, 256> shifts{};
+  for (unsigned uses = 0; uses < shifts.size(); ++uses)
+    shifts[uses] = static_cast<std::uint8_t>(std::bit_width(uses));
+  return shifts;
+}();
+
 #if defined(__SSE2__)
 
+static_assert(__STDCPP_DEFAULT_NEW_ALIGNMENT__ >= 16, "models are read sixteen bytes at a time");
+
+/// What g++ lets alias the models' entries and nothing else, unlike __m128i.
+using ShortLanes = std::int16_t __attribute__((vector_size(16)));
+
+/// For each shift: half of what it drops, in every lane, and the shift as SIMD wants it.
+struct ShiftLanes {
+  alignas(16) std::int16_t half[8];
+  alignas(16) std::int64_t count[2];
+};
+inline constexpr auto kShiftLanes = [] {
+  std::array<ShiftLanes, 9> lanes{};
+  for (int shift = 1; shift < 9; ++shift) {
+    for (std::int16_t& half : lanes[static_cast<std::size_t>(shift)].half)
+      half = static_cast<std::int16_t>(1 << (shift - 1));
+    lanes[static_cast<std::size_t>(shift)].count[0] = shift;
+  }
+  return lanes;
+}();
+
 inline unsigned SymbolModels::find(unsigned model, std::uint32_t slot) const {
-  const auto* c = reinterpret_cast<const __m128i*>(&cumulative_[model * kSymbols]);
+  const auto* c = reinterpret_cast<const ShortLanes*>(entries(model));
   const __m128i at = _mm_set1_epi16(static_cast<short>(slot));
-  const __m128i low = _mm_cmpgt_epi16(_mm_loadu_si128(c), at);
-  const __m128i high = _mm_cmpgt_epi16(_mm_loadu_si128(c + 1), at);
+  const __m128i low = _mm_cmpgt_epi16((__m128i)c[0], at);
+  const __m128i high = _mm_cmpgt_epi16((__m128i)c[1], at);
   const auto above = static_cast<unsigned>(_mm_movemask_epi8(_mm_packs_epi16(low, high)));
   return static_cast<unsigned>(std::countr_zero(above | 1u << kSymbols)) - 1;
 }
 
 inline void SymbolModels::update(unsigned model, unsigned symbol) {
   Rate& rate = rates_[model];
-  const int shift = std::bit_width(rate.uses);
-  auto* c = reinterpret_cast<__m128i*>(&cumulative_[model * kSymbols]);
-  const auto* target = reinterpret_cast<const __m128i*>(kModelTargets.of_symbol[symbol]);
-  const __m128i half = _mm_set1_epi16(static_cast<short>(1 << (shift - 1)));
-  const __m128i count = _mm_cvtsi32_si128(shift);
+  const ShiftLanes& shift = kShiftLanes[kShiftOfUses[rate.uses]];
+  auto* c = reinterpret_cast<ShortLanes*>(entries(model));
+  const auto* target = reinterpret_cast<const ShortLanes*>(kModelTargets.of_symbol[symbol]);
+  const __m128i half = _mm_load_si128(reinterpret_cast<const __m128i*>(shift.half));
+  const __m128i count = _mm_load_si128(reinterpret_cast<const __m128i*>(shift.count));
   for (int i = 0; i < 2; ++i) {
-    const __m128i old = _mm_loadu_si128(c + i);
-    const __m128i step = _mm_adds_epi16(_mm_sub_epi16(_mm_load_si128(target + i), old), half);
-    _mm_storeu_si128(c + i, _mm_add_epi16(old, _mm_sra_epi16(step, count)));
+    const auto old = (__m128i)c[i];
+    const __m128i step = _mm_adds_epi16(_mm_sub_epi16((__m128i)target[i], old), half);
+    c[i] = (ShortLanes)_mm_add_epi16(old, _mm_sra_epi16(step, count));
   }
-  rate.uses = static_cast<std::uint8_t>(rate.uses + (rate.uses < rate.uses_limit));
+  rate.uses = static_cast<std::uint16_t>(rate.uses + (rate.uses < rate.uses_limit));
 }
 
 #else
 
 inline unsigned SymbolModels::find(unsigned model, std::uint32_t slot) const {
-  const std::uint16_t* c = &cumulative_[model * kSymbols];
+  const std::uint16_t* c = entries(model);
   unsigned symbol = 0;
   for (unsigned i = 1; i < kSymbols; ++i) symbol += c[i] <= slot;
   return symbol;
@@ -122,15 +155,15 @@ inline unsigned SymbolModels::find(unsigned model, std::uint32_t slot) const {
 
 inline void SymbolModels::update(unsigned model, unsigned symbol) {
   Rate& rate = rates_[model];
-  const int shift = std::bit_width(rate.uses);
-  std::uint16_t* c = &cumulative_[model * kSymbols];
+  const int shift = kShiftOfUses[rate.uses];
+  std::uint16_t* c = entries(model);
   for (unsigned i = 0; i < kSymbols; ++i) {
     // Saturated at 16 bits signed, as SIMD adds; entries stay strictly rising either way.
     int step = kModelTargets.of_symbol[symbol][i] - c[i] + (1 << (shift - 1));
     if (step > 32767) step = 32767;
     c[i] = static_cast<std::uint16_t>(c[i] + (step >> shift));
   }
-  rate.uses = static_cast<std::uint8_t>(rate.uses + (rate.uses < rate.uses_limit));
+  rate.uses = static_cast<std::uint16_t>(rate.uses + (rate.uses < rate.uses_limit));
 }
 
 #endif

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "common/mesh/corner_table.h"
@@ -14,11 +15,13 @@ namespace selvage {
 /// Boundary loops one after another. Loops come in the order of their lowest vertex and start there; a loop
 /// runs with the region on its left, that is along its triangles' own edge direction.
 struct BoundaryLoops {
-  std::vector<VertexId> vertices;       ///< by boundary index
-  std::vector<std::uint32_t> lengths;   ///< vertices of each loop; they sum to vertices.size()
+  std::vector<VertexId> vertices;      ///< by boundary index
+  std::vector<std::uint32_t> lengths;  ///< vertices of each loop; they sum to vertices.size()
 };
 
 /// Linear time. Needs every vertex to have one fan (check_corner_table), so loops share no vertex.
 BoundaryLoops find_boundary_loops(const CornerTable& table);
+/// The same, for whoever knows the border vertices; ascending.
+BoundaryLoops find_boundary_loops(const CornerTable& table, std::span<const VertexId> border_vertices);
 
 }  // namespace selvage

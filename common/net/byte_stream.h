@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,8 +22,18 @@ namespace selvage {
 
 namespace asio = boost::asio;
 
+/// Bytes to write. They are in memory in any case; if a file holds them too, a stream may take them from
+/// there.
+struct Piece : std::span<const std::byte> {
+  using std::span<const std::byte>::span;
+  Piece() = default;
+  Piece(std::span<const std::byte> bytes) : std::span<const std::byte>(bytes) {}
+  int file = -1;  ///< open descriptor, or -1
+  std::uint64_t file_offset = 0;
+};
+
 /// Pieces that are written one after the other, as if they were one.
-using Pieces = std::vector<std::span<const std::byte>>;
+using Pieces = std::vector<Piece>;
 
 class ByteStream {
  public:
@@ -36,6 +47,13 @@ class ByteStream {
 
   /// Writes all of it. The pieces and what they point at stay until it is done.
   virtual asio::awaitable<Result<void>> write(const Pieces& pieces) = 0;
+
+  /// How much one write should carry. What a write has begun cannot be taken back, so on a far connection, or
+  /// one that may be, it is little: a cancel or an urgent answer then waits behind little. On a near one it
+  /// is more, since every write costs a turn of the event loop.
+  virtual std::size_t write_size() const { return kFarWrite; }
+  static constexpr std::size_t kFarWrite = 32u << 10;
+  static constexpr std::size_t kNearWrite = 256u << 10;
 
   /// Ends both directions; what is under way fails with Cancelled. May be called again.
   virtual void close() = 0;

@@ -7,6 +7,8 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
+#include <memory>
 
 #include <boost/asio/awaitable.hpp>
 #include <boost/asio/steady_timer.hpp>
@@ -20,16 +22,25 @@ class Deadline {
 
   explicit Deadline(boost::asio::any_io_executor executor);
 
-  void expires_after(Clock::duration duration);
+  void expires_at(Clock::time_point at);
+  void expires_after(Clock::duration duration) { expires_at(Clock::now() + duration); }
   void clear() { at_ = Clock::time_point::max(); }
 
   /// Returns when the deadline has passed; with none set it waits for one. Throws what Asio throws when
   /// the waiting coroutine is cancelled, which ends an `||` in the other's favour.
   boost::asio::awaitable<void> expired();
 
+  /// For those who cannot afford a coroutine that waits: `call` is called when the deadline passes, which
+  /// clears it, until stop(). That must be called on the strand before the deadline goes.
+  void on_expiry(std::function<void()> call);
+  void stop();
+
  private:
+  void watch();
+
   boost::asio::steady_timer timer_;
   Clock::time_point at_ = Clock::time_point::max();
+  std::shared_ptr<std::function<void()>> call_;
 };
 
 }  // namespace selvage

@@ -113,6 +113,7 @@ std::span<std::byte> FrameBuffer::writable() {
   begin_ = 0;
   // take() left less than a whole frame, so `wanted` is more than what is held: there is room.
   bytes_.resize(wanted());
+  if (bytes_.capacity() > 4 * bytes_.size()) bytes_.shrink_to_fit();  // a large frame has gone by
   return std::span(bytes_).subspan(end_);
 }
 

@@ -53,7 +53,7 @@ std::string_view to_string(FrameType type);
 inline constexpr std::size_t kFrameHeaderSize = 16;
 inline constexpr std::uint32_t kMaxPayload = 1u << 20;
 /// A part's or directory's bytes travel in Data frames of at most this many bytes.
-inline constexpr std::uint32_t kMaxDataPayload = 64u << 10;
+inline constexpr std::uint32_t kMaxDataPayload = 256u << 10;
 /// On the Data frame that completes a part or a directory.
 inline constexpr std::uint8_t kFlagEnd = 1;
 

@@ -18,4 +18,13 @@ boost::asio::awaitable<void> Signal::wait() {
   notified_ = false;
 }
 
+boost::asio::awaitable<void> Signal::wait_for(std::chrono::steady_clock::duration at_most) {
+  if (!notified_) {
+    timer_.expires_after(at_most);
+    co_await timer_.async_wait(kAwait);
+    timer_.expires_at(boost::asio::steady_timer::time_point::max());
+  }
+  notified_ = false;
+}
+
 }  // namespace selvage

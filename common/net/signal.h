@@ -3,6 +3,8 @@
 // "Something changed, look again" from one coroutine to another on the same strand.
 #pragma once
 
+#include <chrono>
+
 #include <boost/asio/awaitable.hpp>
 #include <boost/asio/steady_timer.hpp>
 
@@ -17,9 +19,11 @@ class Signal {
 
   /// Returns once notified, or when the waiting coroutine is cancelled.
   boost::asio::awaitable<void> wait();
+  /// Or after so long.
+  boost::asio::awaitable<void> wait_for(std::chrono::steady_clock::duration at_most);
 
  private:
-  boost::asio::steady_timer timer_;  ///< never expires: being cancelled is the event
+  boost::asio::steady_timer timer_;  ///< being cancelled is the event
   bool notified_ = false;
 };
 

@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "common/net/tcp_stream.h"
 
+#include <algorithm>
+#include <array>
+#include <cerrno>
 #include <charconv>
 #include <netinet/tcp.h>
+#include <sys/sendfile.h>
+#include <sys/socket.h>
+#include <sys/uio.h>
 
 #include <boost/asio/connect.hpp>
 #include <boost/asio/experimental/awaitable_operators.hpp>
+#include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
-#include <boost/asio/write.hpp>
 
 #include "common/net/await.h"
 
@@ -17,13 +23,106 @@ namespace {
 using asio::ip::tcp;
 using boost::system::error_code;
 
-/// Bytes handed to the kernel but not yet sent: enough to keep a fast link busy between two writes.
-constexpr int kNotSentLowWater = 128 << 10;
+/// Bytes handed to the kernel but not yet sent: enough to keep a fast link busy between two writes. The
+/// kernel takes up to this and one segment of at most 64 KiB.
+constexpr int kNotSentLowWater = 32 << 10;
+constexpr int kNotSentLowWaterNear = 512 << 10;
+/// A round trip below which little time is lost behind what waits in the kernel.
+constexpr unsigned kNearMicroseconds = 2000;
+
+/// From a file, smaller pieces cost more than they save: see docs/DECISIONS.md.
+constexpr std::size_t kSendfileFrom = 192u << 10;
+
+/// The handshake has measured it. Unknown is far.
+bool is_near(int socket) {
+  tcp_info info{};
+  socklen_t size = sizeof info;
+  return ::getsockopt(socket, IPPROTO_TCP, TCP_INFO, &info, &size) == 0 && info.tcpi_rtt < kNearMicroseconds;
+}
+
+/// What is left of the pieces of one write, sent with a system call at a time.
+class Unsent {
+ public:
+  explicit Unsent(const Pieces& pieces) : pieces_(pieces) { skip_empty(); }
+
+  bool empty() const { return next_ == pieces_.size(); }
+  bool has_file() const { return std::ranges::any_of(pieces_, from_file); }
+
+  /// As ::send does.
+  ssize_t send(int socket) {
+    const ssize_t sent = from_file(pieces_[next_]) ? send_file(socket) : send_memory(socket);
+    if (sent > 0) advance(static_cast<std::size_t>(sent));
+    return sent;
+  }
+
+ private:
+  static bool from_file(const Piece& piece) { return piece.file >= 0 && piece.size() >= kSendfileFrom; }
+
+  /// SIGPIPE cannot be held off here: who serves files ignores it.
+  ssize_t send_file(int socket) {
+    const Piece& piece = pieces_[next_];
+    auto offset = static_cast<off_t>(piece.file_offset + done_);
+    return ::sendfile(socket, piece.file, &offset, piece.size() - done_);
+  }
+
+  ssize_t send_memory(int socket) {
+    std::array<iovec, 128> parts;
+    std::size_t count = 0, at = next_;
+    for (; at < pieces_.size() && count < parts.size() && !from_file(pieces_[at]); ++at) {
+      const std::size_t done = at == next_ ? done_ : 0;
+      parts[count++] = {const_cast<std::byte*>(pieces_[at].data()) + done, pieces_[at].size() - done};
+    }
+    msghdr message{};
+    message.msg_iov = parts.data();
+    message.msg_iovlen = count;
+    const bool more = at < pieces_.size();  // a header travels with what it announces
+    return ::sendmsg(socket, &message, MSG_NOSIGNAL | (more ? MSG_MORE : 0));
+  }
+
+  void advance(std::size_t bytes) {
+    while (bytes > 0) {
+      const std::size_t step = std::min(bytes, pieces_[next_].size() - done_);
+      bytes -= step;
+      done_ += step;
+      if (done_ < pieces_[next_].size()) return;
+      ++next_;
+      done_ = 0;
+      skip_empty();
+    }
+  }
+  void skip_empty() {
+    while (next_ < pieces_.size() && pieces_[next_].empty()) ++next_;
+  }
+
+  const Pieces& pieces_;
+  std::size_t next_ = 0, done_ = 0;  ///< piece, and bytes of it
+};
+
+/// What is sent from a file cannot say that more follows: without this the next header would be a packet of
+/// its own, which costs more than the two calls.
+class Cork {
+ public:
+  Cork(tcp::socket& socket, bool is_needed) : socket_(socket), is_needed_(is_needed) { set(1); }
+  ~Cork() { set(0); }
+  Cork(const Cork&) = delete;
+  Cork& operator=(const Cork&) = delete;
+
+ private:
+  void set(int value) const {
+    if (is_needed_ && socket_.is_open())  // it may be closed meanwhile
+      ::setsockopt(socket_.native_handle(), IPPROTO_TCP, TCP_CORK, &value, sizeof value);
+  }
+  tcp::socket& socket_;
+  const bool is_needed_;
+};
 
 class TcpStream final : public ByteStream {
  public:
   explicit TcpStream(tcp::socket socket) : socket_(std::move(socket)) {
     tune_for_sessions(socket_);
+    error_code ignored;
+    socket_.native_non_blocking(true, ignored);
+    near_ = is_near(socket_.native_handle());
     peer_ = peer_of(socket_);
   }
 
@@ -36,12 +135,25 @@ class TcpStream final : public ByteStream {
   }
 
   asio::awaitable<Result<void>> write(const Pieces& pieces) override {
-    buffers_.clear();
-    for (const auto& piece : pieces) buffers_.emplace_back(piece.data(), piece.size());
-    auto [error, count] = co_await asio::async_write(socket_, buffers_, kAwait);
-    if (error) co_return connection_failure(error);
+    bool waited = false;
+    Unsent unsent(pieces);
+    const Cork cork(socket_, unsent.has_file());
+    while (!unsent.empty()) {
+      if (!socket_.is_open()) co_return connection_failure(asio::error::operation_aborted);
+      if (unsent.send(socket_.native_handle()) >= 0 || errno == EINTR) continue;
+      if (errno != EAGAIN && errno != EWOULDBLOCK) {
+        co_return connection_failure(error_code(errno, boost::system::system_category()));
+      }
+      auto [error] = co_await socket_.async_wait(tcp::socket::wait_write, kAwait);
+      if (error) co_return connection_failure(error);
+      waited = true;
+    }
+    // Others have their turn, even when the kernel takes whatever we have.
+    if (!waited) co_await asio::post(socket_.get_executor(), asio::use_awaitable);
     co_return Result<void>();
   }
+
+  std::size_t write_size() const override { return near_ ? kNearWrite : kFarWrite; }
 
   void close() override {
     error_code ignored;
@@ -54,7 +166,7 @@ class TcpStream final : public ByteStream {
 
  private:
   tcp::socket socket_;
-  std::vector<asio::const_buffer> buffers_;
+  bool near_ = false;
   std::string peer_;
 };
 
@@ -92,7 +204,8 @@ void tune_for_sessions(tcp::socket& socket) {
   error_code ignored;
   socket.set_option(tcp::no_delay(true), ignored);
   using NotSentLowWater = asio::detail::socket_option::integer<IPPROTO_TCP, TCP_NOTSENT_LOWAT>;
-  socket.set_option(NotSentLowWater(kNotSentLowWater), ignored);
+  const bool near = is_near(socket.native_handle());
+  socket.set_option(NotSentLowWater(near ? kNotSentLowWaterNear : kNotSentLowWater), ignored);
 }
 
 std::string peer_of(const tcp::socket& socket) {

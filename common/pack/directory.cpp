@@ -12,7 +12,6 @@
 namespace selvage {
 namespace {
 
-constexpr std::uint32_t kMaxLevels = 16;
 constexpr std::size_t kMaxTextLength = 4096;
 
 std::uint32_t page_count(std::uint32_t regions) { return (regions + kRegionsPerPage - 1) / kRegionsPerPage; }

@@ -37,6 +37,8 @@ struct PartRef {
   Hash hash;
 };
 
+inline constexpr std::uint32_t kMaxLevels = 16;  ///< of a region, the finest included
+
 /// One region at one level of detail.
 struct LevelEntry {
   PartRef part;

@@ -31,16 +31,21 @@ void write_header(ByteWriter& out, const PackHeader& header) {
 
 }  // namespace
 
-/// A read-only private mapping of a whole file.
+/// A read-only private mapping of a whole file, which stays open.
 class Pack::Mapping {
  public:
-  Mapping(void* data, std::size_t size) : data_(data), size_(size) {}
-  ~Mapping() { munmap(data_, size_); }
+  Mapping(int file, void* data, std::size_t size) : file_(file), data_(data), size_(size) {}
+  ~Mapping() {
+    munmap(data_, size_);
+    ::close(file_);
+  }
   Mapping(const Mapping&) = delete;
   Mapping& operator=(const Mapping&) = delete;
   std::span<const std::byte> bytes() const { return {static_cast<const std::byte*>(data_), size_}; }
+  int file() const { return file_; }
 
  private:
+  int file_;
   void* data_;
   std::size_t size_;
 };
@@ -88,11 +93,13 @@ Result<std::shared_ptr<const Pack>> Pack::open(const std::filesystem::path& path
   const bool is_file = fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_size > 0;
   const auto size = is_file ? static_cast<std::size_t>(status.st_size) : 0;
   void* data = is_file ? mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file, 0) : MAP_FAILED;
-  ::close(file);
-  if (data == MAP_FAILED) return fail(ErrorCode::Io, path.string() + ": not a readable, non-empty file");
+  if (data == MAP_FAILED) {
+    ::close(file);
+    return fail(ErrorCode::Io, path.string() + ": not a readable, non-empty file");
+  }
 
   std::shared_ptr<Pack> pack(new Pack);
-  pack->mapping_ = std::make_unique<Mapping>(data, size);
+  pack->mapping_ = std::make_unique<Mapping>(file, data, size);
   pack->bytes_ = pack->mapping_->bytes();
   if (auto ok = pack->parse(); !ok) return forward_error(ok, path.string());
   return pack;
@@ -105,6 +112,8 @@ Result<std::shared_ptr<const Pack>> Pack::from_bytes(std::vector<std::byte> byte
   if (auto ok = pack->parse(); !ok) return forward_error(ok);
   return pack;
 }
+
+int Pack::file() const { return mapping_ ? mapping_->file() : -1; }
 
 Result<void> Pack::parse() {
   auto header = parse_pack_header(bytes_, bytes_.size());

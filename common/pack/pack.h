@@ -47,6 +47,8 @@ class Pack {
   const Directory& directory() const { return directory_; }
   std::span<const std::byte> directory_bytes() const;  ///< what the wire sends as the manifest
   std::span<const std::byte> bytes() const { return bytes_; }
+  /// The file that holds bytes(), open for reading as long as the pack is; -1 if there is none.
+  int file() const;
   /// `ref` must come from this pack's directory. Not checked against its hash: see check_part.
   std::span<const std::byte> part(const PartRef& ref) const;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "server/app/build_command.h"
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 
@@ -23,6 +24,33 @@ volatile std::sig_atomic_t g_interrupted = 0;
 std::filesystem::path output_path(const BuildCommand& command) {
   if (!command.pack.empty()) return command.pack;
   return command.store / (command.segmentation.model.stem().string() + ".selvage");
+}
+
+std::vector<LevelGoal> goals_of(const BuildCommand& command) {
+  std::vector<LevelGoal> goals;
+  for (double ratio : command.level_ratios) goals.push_back({.ratio = ratio});
+  for (double error : command.level_errors) goals.push_back({.error = error});
+  return goals.empty() ? usual_levels(command.levels) : goals;
+}
+
+/// What the whole model takes at one level, joins at full resolution included.
+struct LevelTotal {
+  std::uint64_t triangles = 0, bytes = 0;
+  double deviation = 0;
+};
+std::vector<LevelTotal> totals_by_level(const Directory& directory) {
+  std::vector<LevelTotal> totals(directory.level_count());
+  for (std::uint32_t level = 0; level < totals.size(); ++level) {
+    for (const RegionEntry& entry : directory.regions) {
+      totals[level].bytes += entry.bundle.size;
+      if (entry.levels.empty()) continue;
+      const LevelEntry& at = entry.levels[entry.canonical_level(level)];
+      totals[level].triangles += at.triangles;
+      totals[level].bytes += at.part.size;
+      totals[level].deviation = std::max(totals[level].deviation, double{at.deviation});
+    }
+  }
+  return totals;
 }
 
 std::string count_of(std::uint32_t count, const char* one, const char* many) {
@@ -53,6 +81,11 @@ void print_json(const BuildCommand& command, const std::filesystem::path& path, 
       {"turned_triangles", model.repair.turned_triangles},
       {"vertex_copies", model.repair.vertex_copies},
   };
+  for (const LevelTotal& total : totals_by_level(directory)) {
+    json["levels"].push_back({{"region_triangles", total.triangles},
+                              {"bytes_with_joins", total.bytes},
+                              {"deviation", total.deviation}});
+  }
   for (const StageTime& time : model.times) json["seconds"][time.stage] = time.seconds.count();
   fmt::print("{}\n", json.dump(2));
 }
@@ -82,6 +115,15 @@ void print_summary(const std::filesystem::path& path, const IngestedModel& model
   }
   fmt::print("  {} bytes, {:.2f} bits a vertex on a {}-bit grid\n", pack.bytes().size(),
              8 * bytes / std::max(directory.vertices, 1u), directory.grid.bits);
+  const std::vector<LevelTotal> totals = totals_by_level(directory);
+  for (std::size_t level = 1; level < totals.size(); ++level) {
+    fmt::print(
+        "  level {}: {} triangles inside regions ({:.1f} %), {} bytes with joins, at most {:.3g} off\n",
+        level, totals[level].triangles,
+        100.0 * static_cast<double>(totals[level].triangles) /
+            static_cast<double>(std::max<std::uint64_t>(totals[0].triangles, 1)),
+        totals[level].bytes, totals[level].deviation);
+  }
   fmt::print("  {:.3f} s ({}), peak memory {:.0f} MiB\n", total, stages, peak_memory_mib());
 }
 
@@ -104,7 +146,8 @@ Result<void> run(const BuildCommand& command) {
                               command.bits,
                               std::move(*parts),
                               command.segmentation.segment,
-                              command.lossless};
+                              command.lossless,
+                              goals_of(command)};
   ProgressLine line;
   auto model =
       ingest(file->soup, options, threaded_for(command.threads), [&](const std::string& stage, double done) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "common/base/result.h"
 #include "server/app/segmentation_options.h"
@@ -18,6 +19,9 @@ struct BuildCommand {
   std::map<std::string, std::string> metadata;
   int bits = 14;
   bool lossless = false;
+  unsigned levels = 2;               ///< of detail, the finest included ...
+  std::vector<double> level_ratios;  ///< ... or, of those beside the finest, shares of the triangles ...
+  std::vector<double> level_errors;  ///< ... or errors in model units
   unsigned threads = 0;
   bool json = false;
   SegmentationOptions segmentation;

@@ -13,7 +13,7 @@ namespace {
 
 /// Bytes of a pack by purpose; they sum to the file.
 struct ByteShares {
-  std::size_t connectivity = 0, attributes = 0, joins = 0, headers = 0, directory = 0;
+  std::size_t connectivity = 0, attributes = 0, coarser = 0, joins = 0, headers = 0, directory = 0;
 };
 
 ByteShares measure(const Pack& pack) {
@@ -23,8 +23,15 @@ ByteShares measure(const Pack& pack) {
   shares.connectivity = directory.connectivity_bytes;
   for (const RegionEntry& entry : directory.regions) {
     shares.joins += entry.bundle.size;
-    shares.headers += entry.levels.size();
-    for (const LevelEntry& level : entry.levels) shares.attributes += level.part.size - 1;
+    for (const LevelEntry& level : entry.levels) {
+      if (level.is_repeat) continue;
+      if (&level != &entry.levels.front()) {
+        shares.coarser += level.part.size;
+      } else {
+        shares.headers += 1;
+        shares.attributes += level.part.size - 1;
+      }
+    }
   }
   shares.attributes -= std::min(shares.attributes, shares.connectivity);
   return shares;
@@ -42,6 +49,8 @@ nlohmann::ordered_json region_json(RegionId id, const RegionEntry& entry, const 
     json["levels"].push_back({{"vertices", level.vertices},
                               {"triangles", level.triangles},
                               {"deviation", level.deviation},
+                              {"bits", grid.bits - level.dropped_bits},
+                              {"repeats_finer", level.is_repeat},
                               {"bytes", level.part.size},
                               {"hash", level.part.hash.to_hex()}});
   }
@@ -73,6 +82,7 @@ void print_json(const Pack& pack, const ByteShares& shares) {
        {{"total", pack.bytes().size()},
         {"connectivity", shares.connectivity},
         {"attributes", shares.attributes},
+        {"coarser_levels", shares.coarser},
         {"joins", shares.joins},
         {"headers", shares.headers},
         {"directory", shares.directory}}},
@@ -104,6 +114,7 @@ void print_text(const Pack& pack, const ByteShares& shares) {
              directory.units.empty() ? "model units" : directory.units);
   print_share("connectivity", shares.connectivity, pack);
   print_share("geometry", shares.attributes, pack);
+  print_share("coarser levels", shares.coarser, pack);
   print_share("joins", shares.joins, pack);
   print_share("region headers", shares.headers, pack);
   print_share("directory", shares.directory, pack);
@@ -119,6 +130,17 @@ void print_text(const Pack& pack, const ByteShares& shares) {
                id == kLooseRegion ? "loose" : std::to_string(id), full.vertices, full.triangles,
                full.part.size, entry.bundle.size, entry.loop_lengths.size(),
                fmt::join(entry.lower_neighbours, " "));
+    for (std::size_t k = 1; k < entry.levels.size(); ++k) {
+      const LevelEntry& level = entry.levels[k];
+      const std::string at = fmt::format("@{}", k);
+      if (level.is_repeat) {
+        fmt::print("{:>7} {:>9}\n", at, "the same");
+      } else {
+        fmt::print("{:>7} {:>9} {:>10} {:>9}  {} bits, at most {:.3g} off\n", at, level.vertices,
+                   level.triangles, level.part.size, directory.grid.bits - level.dropped_bits,
+                   level.deviation);
+      }
+    }
   }
 }
 

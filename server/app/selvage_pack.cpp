@@ -32,6 +32,23 @@ void add_build(CLI::App& app, BuildCommand& command) {
   build.add_option("--bits", command.bits, "grid planes along the longest side: 2^bits")
       ->check(CLI::Range(8, 24))
       ->capture_default_str();
+  auto* levels = build
+                     .add_option("--levels", command.levels,
+                                 "levels of detail, the finest included: 2 adds one of an eighth of the "
+                                 "triangles, 3 a quarter and a sixteenth, more halve each time; 1: none")
+                     ->check(CLI::Range(1, 16))
+                     ->capture_default_str();
+  auto* ratios = build
+                     .add_option("--level-ratios", command.level_ratios,
+                                 "instead: shares of the triangles, falling, for instance 0.25,0.05")
+                     ->delimiter(',')
+                     ->excludes(levels);
+  build
+      .add_option("--level-errors", command.level_errors,
+                  "instead: deviations that collapses may leave, in model units, rising")
+      ->delimiter(',')
+      ->excludes(levels)
+      ->excludes(ratios);
   build.add_option("--name", command.name, "the model's name for people (default: MODEL's name)");
   build.add_option("--units", command.units, "what one unit of the model is, for instance mm");
   build.add_option("--meta", command.metadata, "key and value that travel with the model; may be repeated");
@@ -45,6 +62,8 @@ void add_build(CLI::App& app, BuildCommand& command) {
       "  selvage-pack build engine.stl --store packs --bits 16 --units mm --meta author 'R. Roe'\n"
       "  selvage-pack build statue.obj -o statue.selvage --regions 12\n"
       "  selvage-pack build fandisk.off --mode cad --max-region 2000\n"
+      "  selvage-pack build statue.obj --level-ratios 0.3,0.1,0.02\n"
+      "  selvage-pack build engine.stl --level-errors 0.05,0.5\n"
       "  selvage-pack build scan.ply --min-region 500 --max-region 20000 --smooth --json\n"
       "  selvage-pack build car.obj --segment-by groups      then: selvage-client unpack car.selvage "
       "--regions "

@@ -75,6 +75,8 @@ void add_limits(CLI::App& app, ServerOptions& options) {
       ->group(kLimits);
   add_bytes(app, "--max-queued", session.queued_bytes, "of answers without data that a client does not take")
       ->group(kLimits);
+  add_bytes(app, "--max-rate", session.bytes_per_second, "a second for each client; 0: no limit")
+      ->group(kLimits);
   add_seconds(app, "--handshake-timeout", session.handshake_timeout, "for a client to say hello")
       ->group(kLimits);
   add_seconds(app, "--idle-timeout", session.idle_timeout, "for a client that says nothing")->group(kLimits);

@@ -9,17 +9,19 @@
 namespace selvage {
 namespace {
 
-std::uint32_t magnitude_of(std::int32_t residual) { return static_cast<std::uint32_t>(std::abs(residual)); }
+/// The symbol of a magnitude, and what the next axis's class makes of it.
+std::int32_t encode_magnitude(EntropyEncoder& out, unsigned model, const SizeClass& size,
+                              std::uint32_t magnitude) {
+  const std::uint32_t coarse = magnitude >> size.raw_low_bits, symbol = std::min(coarse, kMagnitudeEscape);
+  out.symbol(model, symbol);
+  if (symbol == kMagnitudeEscape) out.number(region_model::kExcess, coarse - kMagnitudeEscape);
+  return coarse_log(symbol, size);
+}
 
-void encode_residual(EntropyEncoder& out, unsigned model, const SizeClass& size, std::int32_t residual) {
-  const std::uint32_t magnitude = magnitude_of(residual);
-  const std::uint32_t coarse = magnitude >> size.raw_low_bits;
-  out.symbol(model, std::min(coarse, kMagnitudeEscape));
-  if (coarse >= kMagnitudeEscape) out.number(region_model::kExcess, coarse - kMagnitudeEscape);
-  const std::uint32_t low = magnitude & ((1u << size.raw_low_bits) - 1);
-  if (coarse == 0 && size.raw_low_bits == 0) return;
-  out.bits(low, size.raw_low_bits);
-  if (magnitude != 0) out.bits(residual < 0, 1);
+void encode_sign_and_low_bits(EntropyEncoder& out, const SizeClass& size, std::int32_t residual) {
+  if (residual == 0 && size.raw_low_bits == 0) return;
+  out.bits(residual < 0, 1);
+  out.bits(magnitude_of(residual) & ((1u << size.raw_low_bits) - 1), size.raw_low_bits);
 }
 
 void encode_offset(EntropyEncoder& out, const GridPoint& position, const GridBox& box) {
@@ -59,29 +61,32 @@ std::vector<VertexId> encode_positions(const CornerTable& table, std::span<const
   out.symbol(region_model::kShape, blends.shape);
   out.symbol(region_model::kTrend, blends.trend);
   out.symbol(region_model::kTangent, blends.tangent);
-  GeometryWalk walk(table, tables, blends, box.extent());
+  const Predictor predictor(tables, blends);
+  GeometryWalk walk(table, table.vertex_count(), box.extent());
   std::vector<VertexId> order;
   for (Surroundings around; walk.next_vertex(around);) {
     const GridPoint& position = positions[walk.old_number()];
     order.push_back(walk.old_number());
-    if (around.neighbours == 0) {
+    if (!around.has_neighbours) {
       encode_offset(out, position, box);
       walk.place_first(position);
       continue;
     }
-    const GridPoint residual = position - walk.predict(around);
-    const unsigned d = around.normal_axis;
-    const auto u = residual[static_cast<int>((d + 1) % 3)], w = residual[static_cast<int>((d + 2) % 3)];
-    const SizeClass first = walk.size_class(around, 0, 0, 0, 0);
-    encode_residual(out, magnitude_model(0, around, first), first, u);
-    const SizeClass second = walk.size_class(around, 1, magnitude_of(u), 0, 0);
-    encode_residual(out, magnitude_model(1, around, second), second, w);
-    const std::int32_t tangent = walk.tangent_residual(around, u, w);
-    const std::int32_t last = residual[static_cast<int>(d)] - tangent;
-    const SizeClass third =
-        walk.size_class(around, 2, magnitude_of(u), magnitude_of(w), magnitude_of(tangent));
-    encode_residual(out, magnitude_model(2, around, third), third, last);
-    walk.place(around, position, magnitude_of(u) + magnitude_of(w), magnitude_of(last));
+    const IntLanes lanes{position.x, position.y, position.z, 0};
+    const CodedResidual residual = residual_of(predictor, around, lanes);
+    const IntLanes expected = predictor.expected_sizes(around);
+    const std::uint32_t u = magnitude_of(residual.u), w = magnitude_of(residual.w),
+                        last = magnitude_of(residual.last);
+    const SizeClass first = predictor.size_class(around, expected, 0, 0, 0);
+    const std::int32_t log_u = encode_magnitude(out, magnitude_model(0, around, first), first, u);
+    const SizeClass second = predictor.size_class(around, expected, 1, log_u, 0);
+    const std::int32_t log_w = encode_magnitude(out, magnitude_model(1, around, second), second, w);
+    const SizeClass third = predictor.size_class(around, expected, 2, log_u, log_w);
+    encode_magnitude(out, magnitude_model(2, around, third), third, last);
+    encode_sign_and_low_bits(out, first, residual.u);
+    encode_sign_and_low_bits(out, second, residual.w);
+    encode_sign_and_low_bits(out, third, residual.last);
+    walk.place(around, lanes, u + w, last);
   }
   return order;
 }

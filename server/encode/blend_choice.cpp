@@ -9,36 +9,38 @@ namespace {
 
 struct Sample {
   Surroundings around;
-  GridPoint position;
+  IntLanes position;
 };
 
 std::int64_t cost_of(std::int32_t residual) {
   return log_size(2 * static_cast<std::uint64_t>(std::abs(std::int64_t{residual})));
 }
 
-std::int64_t cost_of(const std::vector<Sample>& samples, const GeometryWalk& walk) {
+std::int64_t cost_of(const std::vector<Sample>& samples, const Predictor& predictor) {
   std::int64_t cost = 0;
   for (const Sample& sample : samples) {
-    const GridPoint residual = sample.position - walk.predict(sample.around);
-    const unsigned d = sample.around.normal_axis;
-    const auto u = residual[static_cast<int>((d + 1) % 3)], w = residual[static_cast<int>((d + 2) % 3)];
-    const std::int32_t last = residual[static_cast<int>(d)] - walk.tangent_residual(sample.around, u, w);
-    cost += cost_of(u) + cost_of(w) + cost_of(last);
+    const CodedResidual residual = residual_of(predictor, sample.around, sample.position);
+    cost += cost_of(residual.u) + cost_of(residual.w) + cost_of(residual.last);
   }
   return cost;
 }
 
 /// Every nth vertex that a parallelogram predicts. Surroundings do not depend on blends.
 std::vector<Sample> take_samples(const CornerTable& table, std::span<const GridPoint> positions,
-                                 const GridBox& box, const CodecTables& tables) {
+                                 const GridBox& box) {
   constexpr std::size_t kMost = 1024;
   const std::size_t every = positions.size() / kMost + 1;
   std::vector<Sample> samples;
-  GeometryWalk walk(table, tables, {}, box.extent());
+  GeometryWalk walk(table, table.vertex_count(), box.extent());
   for (Surroundings around; walk.next_vertex(around);) {
     const GridPoint& position = positions[walk.old_number()];
-    if (walk.count() % every == 0 && around.parallelograms > 0) samples.push_back({around, position});
-    walk.place(around, position, 0, 0);
+    if (!around.has_neighbours) {
+      walk.place_first(position);
+      continue;
+    }
+    const IntLanes lanes{position.x, position.y, position.z, 0};
+    if (walk.count() % every == 0 && around.parallelograms > 0) samples.push_back({around, lanes});
+    walk.place(around, lanes, 0, 0);
   }
   return samples;
 }
@@ -47,7 +49,7 @@ std::vector<Sample> take_samples(const CornerTable& table, std::span<const GridP
 
 Blends choose_blends(const CornerTable& table, std::span<const GridPoint> positions, const GridBox& box,
                      const CodecTables& tables) {
-  const std::vector<Sample> samples = take_samples(table, positions, box, tables);
+  const std::vector<Sample> samples = take_samples(table, positions, box);
   Blends best;
   if (samples.size() < 16) return best;
   const auto improve = [&](unsigned Blends::*blend, unsigned most) {
@@ -55,7 +57,7 @@ Blends choose_blends(const CornerTable& table, std::span<const GridPoint> positi
     Blends tried = best;
     for (unsigned value = 0; value <= most; ++value) {
       tried.*blend = value;
-      const std::int64_t cost = cost_of(samples, GeometryWalk(CornerTable{}, tables, tried, 0));
+      const std::int64_t cost = cost_of(samples, Predictor(tables, tried));
       if (cost < least) least = cost, best = tried;
     }
   };

@@ -35,7 +35,7 @@ class BundleEncoder {
     for (std::uint32_t seed = 0; seed < corners_.size(); ++seed) {
       if (!is_coded_[seed]) start_at_corners(seed);
     }
-    Bytes bytes = out_.finish<1>(start).bytes;
+    Bytes bytes = out_.finish(start).bytes;
     if (symbols != nullptr) *symbols = std::move(out_);
     return bytes;
   }

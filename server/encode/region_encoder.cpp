@@ -129,7 +129,7 @@ EncodedRegion encode_region(const RegionSource& source, const CodecTables& table
                              .has_anchors = !mesh.anchors.empty(),
                              .has_exact = !mesh.exact.empty(),
                              .is_coarse = source.coarse.has_value()});
-  const EntropyEncoder::Coded coded = out.finish<2>(tables.region);
+  const EntropyEncoder::Coded coded = out.finish(tables.region);
   part.append(coded.bytes);
   encoded.connectivity_size = coded.bytes_to_mark;
   encoded.bytes = std::move(part).take();

@@ -13,6 +13,7 @@
 #include "server/ingest/segment_model.h"
 #include "server/ingest/spatial_order.h"
 #include "server/segment/partition.h"
+#include "server/simplify/model_levels.h"
 
 namespace selvage {
 namespace {
@@ -72,6 +73,50 @@ std::vector<NamedRegions> to_ranges(const std::map<std::string, std::vector<Regi
   return names;
 }
 
+Result<void> check_goals(const std::vector<LevelGoal>& goals) {
+  if (goals.size() >= kMaxLevels) {
+    return fail(ErrorCode::InvalidArgument, "more than " + std::to_string(kMaxLevels) + " levels of detail");
+  }
+  LevelGoal finer{.ratio = 1, .error = 0};
+  for (const LevelGoal& goal : goals) {
+    const bool is_coarser = goal.ratio >= 0 && goal.ratio < 1 && goal.ratio <= finer.ratio &&
+                            goal.error >= finer.error &&
+                            (goal.ratio < finer.ratio || goal.error > finer.error);
+    if (!is_coarser) {
+      return fail(ErrorCode::InvalidArgument,
+                  "levels of detail must each be coarser than the one before: ratios below 1 that fall, or "
+                  "errors that rise");
+    }
+    finer = goal;
+  }
+  return {};
+}
+
+LevelledMesh make_levels(const RepairedMesh& mesh, const Partition& partition, const Grid& grid,
+                         const std::vector<LevelGoal>& goals, const ParallelFor& parallel,
+                         const SimplifyProgress& progress) {
+  if (goals.empty()) return {};
+  std::vector<GridPoint> positions;
+  positions.reserve(mesh.positions.size());
+  for (const Vec3& p : mesh.positions) positions.push_back(grid.quantise(p));
+  std::vector<VertexId> pinned;
+  const std::vector<std::uint32_t> weld_groups = find_weld_groups(mesh.table, mesh.source_of_vertex);
+  for (VertexId v = 0; v < weld_groups.size(); ++v) {
+    if (weld_groups[v] != kNone) pinned.push_back(v);
+  }
+  std::vector<LevelTarget> targets;
+  for (const LevelGoal& goal : goals) {
+    targets.push_back({.triangles = static_cast<std::uint32_t>(goal.ratio * mesh.table.triangle_count()),
+                       .max_deviation = goal.error / grid.step});
+  }
+  return make_model_levels({.mesh = mesh.table,
+                            .positions = positions,
+                            .region_of_vertex = partition.region_of_vertex,
+                            .region_count = partition.region_count,
+                            .pinned = pinned},
+                           targets, parallel, progress);
+}
+
 bool are_floats(const std::vector<Vec3>& positions) {
   return std::all_of(positions.begin(), positions.end(), [](const Vec3& p) {
     constexpr double kMost = std::numeric_limits<float>::max();
@@ -85,6 +130,13 @@ bool are_floats(const std::vector<Vec3>& positions) {
 
 }  // namespace
 
+std::vector<LevelGoal> usual_levels(unsigned count) {
+  const double step = count == 2 ? 0.125 : count == 3 ? 0.25 : 0.5;
+  std::vector<LevelGoal> goals;
+  for (unsigned level = 1; level < count; ++level) goals.push_back({.ratio = std::pow(step, level)});
+  return goals;
+}
+
 Result<IngestedModel> ingest(const TriangleSoup& soup, const IngestOptions& options,
                              const ParallelFor& parallel, const Progress& progress) {
   if (options.bits < kMinGridBits || options.bits > kMaxGridBits) {
@@ -92,6 +144,7 @@ Result<IngestedModel> ingest(const TriangleSoup& soup, const IngestOptions& opti
                                                 std::to_string(kMaxGridBits) + ", not " +
                                                 std::to_string(options.bits));
   }
+  if (auto ok = check_goals(options.levels); !ok) return forward_error(ok);
   IngestedModel model;
   StageClock clock(progress, model.times);
   const auto cancelled = [] { return fail(ErrorCode::Cancelled, "cancelled"); };
@@ -118,11 +171,21 @@ Result<IngestedModel> ingest(const TriangleSoup& soup, const IngestOptions& opti
     return make_partition(mesh.table, segmentation.region_of_vertex, segmentation.region_count);
   });
   const Grid grid = make_grid(mesh.positions, options.bits);
-  const double parts = 2.0 * (partition.region_count + 1);
+  const LevelledMesh levels = clock.run("simplify", [&] {
+    return make_levels(mesh, partition, grid, options.levels, parallel,
+                       [&](double done) { clock.report("simplify", done); });
+  });
+  if (clock.is_cancelled()) return cancelled();
+  const double parts = (2.0 + static_cast<double>(options.levels.size())) * (partition.region_count + 1);
   std::atomic<std::uint32_t> done = 0;
   EncodedModel encoded = clock.run("encode", [&] {
-    const ModelSource source{mesh.table,     mesh.positions, mesh.source_of_vertex,
-                             mesh.is_turned, partition,      options.lossless};
+    const ModelSource source{mesh.table,
+                             mesh.positions,
+                             mesh.source_of_vertex,
+                             mesh.is_turned,
+                             partition,
+                             options.lossless,
+                             options.levels.empty() ? nullptr : &levels};
     return encode_model(source, grid, parallel, [&] { clock.report("encode", ++done / parts); });
   });
   if (clock.is_cancelled()) return cancelled();

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <functional>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -19,6 +20,16 @@
 
 namespace selvage {
 
+/// What ends a level of detail: so few triangles, or no collapse that keeps the error.
+struct LevelGoal {
+  double ratio = 0;                                        ///< of the model's triangles
+  double error = std::numeric_limits<double>::infinity();  ///< of the collapses, model units
+};
+
+/// The goals that make `count` levels of detail, the finest included: at an eighth of the triangles for two,
+/// a quarter and a sixteenth for three, each at half of the one before for more.
+std::vector<LevelGoal> usual_levels(unsigned count);
+
 struct IngestOptions {
   std::string name;                             ///< of the model, for people
   std::string units;                            ///< "mm", "m" ...; empty if unknown
@@ -27,6 +38,7 @@ struct IngestOptions {
   Parts parts;             ///< the user's own, which then make the regions; none: the shape does
   SegmentOptions segment;  ///< large models get streaming sizes, see with_streaming_sizes
   bool lossless = false;   ///< keep float32 positions bit for bit besides the grid
+  std::vector<LevelGoal> levels = usual_levels(2);  ///< beside the finest, each coarser than the one before
 };
 
 struct StageTime {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "server/session/listener.h"
 
+#include <csignal>
+
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/experimental/awaitable_operators.hpp>
 #include <boost/asio/post.hpp>
@@ -76,6 +78,7 @@ Listener::Listener(asio::io_context& io, const SessionServices& services, const 
 Result<std::unique_ptr<Listener>> Listener::bind(asio::io_context& io, const HostPort& address,
                                                  const SessionServices& services, const ServerLimits& limits,
                                                  std::shared_ptr<TlsContext> tls) {
+  std::signal(SIGPIPE, SIG_IGN);  // what is sent from files has no other way to say that the client has gone
   error_code error;
   tcp::resolver resolver(io);
   const auto found =

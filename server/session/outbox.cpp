@@ -10,7 +10,7 @@ namespace selvage {
 
 void Batch::clear() {
   buffer_.clear();
-  pieces_.clear();
+  runs_.clear();
   kept_.clear();
   size_bytes_ = 0;
 }
@@ -19,11 +19,11 @@ void Batch::clear() {
 void Batch::add_buffered(std::size_t start) {
   const std::size_t size = buffer_.size() - start;
   size_bytes_ += size;
-  const bool continues = !pieces_.empty() && pieces_.back().outside == nullptr;
+  const bool continues = !runs_.empty() && runs_.back().outside == nullptr;
   if (continues) {
-    pieces_.back().size += size;
+    runs_.back().size += size;
   } else {
-    pieces_.push_back({nullptr, start, size});
+    runs_.push_back({nullptr, start, size});
   }
 }
 
@@ -33,13 +33,14 @@ void Batch::add_bytes(std::span<const std::byte> bytes) {
   add_buffered(start);
 }
 
-void Batch::add_data(const FrameHeader& header, std::span<const std::byte> payload) {
+void Batch::add_data(const FrameHeader& header, std::span<const std::byte> payload, const Pack& pack) {
   const std::size_t start = buffer_.size();
   buffer_.resize(start + kFrameHeaderSize);
   write_header(header, HeaderBytes(&buffer_[start], kFrameHeaderSize));
   add_buffered(start);
   if (payload.size() <= Outbox::kCopiedData) return add_bytes(payload);
-  pieces_.push_back({payload.data(), 0, payload.size()});
+  const auto offset = static_cast<std::uint64_t>(payload.data() - pack.bytes().data());
+  runs_.push_back({payload.data(), 0, payload.size(), pack.file(), offset});
   size_bytes_ += payload.size();
 }
 
@@ -48,11 +49,13 @@ void Batch::keep(const std::shared_ptr<const Pack>& pack) {
 }
 
 const Pieces& Batch::pieces() {
-  spans_.clear();
-  for (const Piece& piece : pieces_) {
-    spans_.emplace_back(piece.outside ? piece.outside : &buffer_[piece.start], piece.size);
+  pieces_.clear();
+  for (const Run& run : runs_) {
+    Piece& piece = pieces_.emplace_back(run.outside ? run.outside : &buffer_[run.start], run.size);
+    piece.file = run.file;
+    piece.file_offset = run.file_offset;
   }
-  return spans_;
+  return pieces_;
 }
 
 // ---- Outbox
@@ -108,9 +111,14 @@ Result<void> Outbox::grant(std::uint64_t bytes) {
   return {};
 }
 
-void Outbox::take(Batch& batch) {
+void Outbox::take(Batch& batch, std::size_t quantum) {
   batch.clear();
+  quantum_ = quantum;
   take_control(batch);
+  take_answers(batch);
+}
+
+void Outbox::take_answers(Batch& batch) {
   while (!answers_.empty()) {
     const std::size_t before = batch.size_bytes();
     const auto next =
@@ -125,9 +133,8 @@ void Outbox::take(Batch& batch) {
   }
 }
 
-/// About half a quantum of them, so that a write stays small and data moves on whatever is queued.
 void Outbox::take_control(Batch& batch) {
-  for (; !control_.empty() && batch.size_bytes() < kQuantum / 2; control_.pop_front()) {
+  for (; !control_.empty() && batch.size_bytes() < kControlShare; control_.pop_front()) {
     control_bytes_ -= control_.front().size();
     batch.add_bytes(control_.front());
   }
@@ -146,7 +153,7 @@ bool Outbox::take_from(Sending& sending, Batch& batch) {
 
 /// How much of something with `left` bytes to go may be sent now: 0, or enough to be worth a frame.
 std::uint64_t Outbox::chunk(std::uint64_t left, const Batch& batch) const {
-  const std::uint64_t room = kQuantum - std::min(kQuantum, batch.size_bytes());
+  const std::uint64_t room = quantum_ - std::min(quantum_, batch.size_bytes());
   const std::uint64_t size = std::min({left, room, credit_, std::uint64_t{kMaxDataPayload}});
   return size < std::min<std::uint64_t>(left, kMinChunk) ? 0 : size;
 }
@@ -159,7 +166,7 @@ bool Outbox::send_bytes(Sending& sending, std::span<const std::byte> bytes, Batc
     const bool ends = sending.at + size == bytes.size();
     const FrameHeader header{static_cast<std::uint32_t>(size), FrameType::Data,
                              ends ? kFlagEnd : std::uint8_t{0}, sending.answer.request_id, sending.seq++};
-    batch.add_data(header, bytes.subspan(sending.at, size));
+    batch.add_data(header, bytes.subspan(sending.at, size), *sending.answer.pack);
     credit_ -= size;
     sending.at += size;
     sending.sums.bytes += size;

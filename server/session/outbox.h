@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // What a session has still to send, and in which order. Control frames go first and come out in the order
-// they went in; answers with data share what is left: each write carries at most one quantum, taken from the
-// most urgent answer, and the next write begins with the next of the same urgency. So a small request beside
-// a large one waits for a quantum, not for the end; a cancel or a change of urgency acts after one.
+// they went in; answers with data share what is left: each write carries at most what suits the
+// connection (ByteStream::write_size), taken from the most urgent answer, and the next write begins with the
+// next of the same urgency. So a small request beside a large one waits for a write, not for the end; a
+// cancel or a change of urgency acts after one.
 //
 // Data goes out only against credit. A Batch points into the mapped pack, part bytes are not copied on the
 // way, but for parts so small that a place of their own in the gather list costs more than the copy.
@@ -12,7 +13,6 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <list>
 #include <memory>
 #include <optional>
@@ -47,7 +47,7 @@ struct Answer {
 class Batch {
  public:
   void clear();
-  bool empty() const { return pieces_.empty(); }
+  bool empty() const { return runs_.empty(); }
   std::size_t size_bytes() const { return size_bytes_; }
 
   /// What to write; valid until the batch changes.
@@ -60,28 +60,31 @@ class Batch {
     add_buffered(start);
   }
   void add_bytes(std::span<const std::byte> bytes);  ///< of whole frames
-  void add_data(const FrameHeader& header, std::span<const std::byte> payload);
+  /// `payload` lies in `pack`.
+  void add_data(const FrameHeader& header, std::span<const std::byte> payload, const Pack& pack);
   void keep(const std::shared_ptr<const Pack>& pack);
 
  private:
   /// A run of `buffer_`, or bytes elsewhere. `buffer_` moves as it grows, so runs are places, not pointers.
-  struct Piece {
+  struct Run {
     const std::byte* outside = nullptr;
     std::size_t start = 0, size = 0;
+    int file = -1;
+    std::uint64_t file_offset = 0;
   };
   void add_buffered(std::size_t start);
 
   std::vector<std::byte> buffer_;
-  std::vector<Piece> pieces_;
-  Pieces spans_;
+  std::vector<Run> runs_;
+  Pieces pieces_;
   std::vector<std::shared_ptr<const Pack>> kept_;
   std::size_t size_bytes_ = 0;
 };
 
 class Outbox {
  public:
-  /// One write, and so what a cancel may still let through besides what the kernel holds.
-  static constexpr std::size_t kQuantum = 64u << 10;
+  /// So much of control frames goes into one write before data has its turn.
+  static constexpr std::size_t kControlShare = 32u << 10;
   /// A part is not cut finer than this, unless it ends.
   static constexpr std::size_t kMinChunk = 16u << 10;
   /// Data up to this size is copied beside its header.
@@ -111,9 +114,10 @@ class Outbox {
   /// Nothing more to send, now or when credit comes.
   bool idle() const { return control_.empty() && answers_.empty(); }
 
-  /// Fills `batch`, which it clears first, with the next write; leaves it empty when there is nothing that
-  /// may be sent now.
-  void take(Batch& batch);
+  /// Fills `batch`, which it clears first, with the next write, in which data goes up to a size of about
+  /// `quantum`; leaves it empty when there is nothing that may be sent now. With less than kMinChunk only
+  /// control frames and the ends of parts may go.
+  void take(Batch& batch, std::size_t quantum);
 
  private:
   /// An answer under way.
@@ -130,6 +134,7 @@ class Outbox {
   Answers::iterator find(std::uint32_t request_id);
 
   void take_control(Batch& batch);
+  void take_answers(Batch& batch);
   bool take_from(Sending& sending, Batch& batch);
   std::uint64_t chunk(std::uint64_t left, const Batch& batch) const;
   bool send_bytes(Sending& sending, std::span<const std::byte> bytes, Batch& batch);
@@ -137,11 +142,12 @@ class Outbox {
   bool send_item(Sending& sending, Batch& batch);
 
   const SessionLimits limits_;
-  std::deque<std::vector<std::byte>> control_;
+  std::list<std::vector<std::byte>> control_;
   std::size_t control_bytes_ = 0;
   Answers answers_;  ///< among those of one urgency, the first one's turn is next
   std::size_t queued_parts_ = 0;
   std::uint64_t credit_ = 0;
+  std::size_t quantum_ = 0;  ///< of the take() under way
 };
 
 }  // namespace selvage

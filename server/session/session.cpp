@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include <boost/asio/experimental/awaitable_operators.hpp>
+#include <boost/asio/co_spawn.hpp>
 
 #include "common/net/await.h"
 #include "common/net/frame_io.h"
@@ -15,7 +15,13 @@ namespace {
 
 constexpr std::string_view kSoftware = "selvage-server";
 /// One read: many small requests, or a Credit. An idle connection holds no more than this.
-constexpr std::size_t kReadSize = 2048;
+constexpr std::size_t kReadSize = 512;
+/// Requests that look at more than so many things (bytes of the request, regions of the model) are answered
+/// on the workers: they may take a millisecond or more.
+constexpr std::size_t kSmallRequest = 16u << 10;
+constexpr std::size_t kSmallModel = 4096;
+/// With a limit on the rate this much may go at once, and a write waits until it may carry as much as that.
+constexpr std::uint64_t kBurst = 64u << 10;
 
 bool is_request(FrameType type) {
   return type == FrameType::ListModels || type == FrameType::OpenModel || type == FrameType::GetParts ||
@@ -35,24 +41,56 @@ Session::Session(std::unique_ptr<ByteStream> stream, const SessionServices& serv
       number_(++services.counters.connections),
       incoming_(limits.message_bytes, kReadSize),
       outbox_(limits),
-      wake_writer_(stream_->executor()),
+      rate_(limits.bytes_per_second, kBurst, RateLimit::Clock::now()),
+      rate_pause_(stream_->executor()),
       wake_reader_(stream_->executor()),
       reading_(stream_->executor()),
-      writing_(stream_->executor()) {
+      writing_(stream_->executor()),
+      writer_ended_(stream_->executor()) {
   ++services_.counters.sessions;
 }
 
 Session::~Session() { --services_.counters.sessions; }
 
 asio::awaitable<void> Session::run() {
-  using namespace asio::experimental::awaitable_operators;
   const LifelineHold hold(*this);
+  watch_deadlines();
   reading_.expires_after(limits_.handshake_timeout);
-  auto both = read_until_end() && write_loop();
-  auto stalled = writing_.expired();
-  const auto first = co_await (std::move(both) || std::move(stalled));
-  if (first.index() == 1) reason_ = Error{ErrorCode::Timeout, "the client does not take what it asked for"};
+  try {
+    co_await read_loop();
+  } catch (...) {
+    thrown_ = std::current_exception();
+  }
+  finish();
+  while (writers_ > 0) co_await writer_ended_.wait();
+  ended_ = true;
+  reading_.stop();
+  writing_.stop();
   stream_->close();
+  if (thrown_) std::rethrow_exception(thrown_);
+}
+
+/// By calls, not by coroutines and operators that join them: those would hold several times as much memory
+/// for an idle connection as all the rest.
+void Session::watch_deadlines() {
+  reading_.on_expiry([this] {
+    if (!reason_) reason_ = Error{ErrorCode::Timeout, "nothing heard from the client for too long"};
+    finish();
+  });
+  writing_.on_expiry([this] {
+    if (!reason_) reason_ = Error{ErrorCode::Timeout, "the client does not take what it asked for"};
+    stream_->close();
+  });
+}
+
+/// Nothing more is read: tells the client why, and lets the writer end the connection.
+void Session::finish() {
+  if (closing_) return;
+  closing_ = true;
+  outbox_.drop_answers();
+  if (thrown_) return stream_->close();
+  if (reason_) send_error(*reason_, 0);
+  wake_writer();
 }
 
 void Session::shut_down() {
@@ -64,19 +102,7 @@ void Session::shut_down() {
 // ---- reading
 // -------------------------------------------------------------------------------------------------
 
-/// Reads until there is a reason not to, tells the client, and lets the writer finish.
-asio::awaitable<void> Session::read_until_end() {
-  using namespace asio::experimental::awaitable_operators;
-  auto loop = read_loop();
-  auto silence = reading_.expired();
-  const auto first = co_await (std::move(loop) || std::move(silence));
-  if (first.index() == 1) reason_ = Error{ErrorCode::Timeout, "nothing heard from the client for too long"};
-  if (reason_) send_error(*reason_, 0);
-  closing_ = true;
-  outbox_.drop_answers();
-  wake_writer_.notify();
-}
-
+/// Until there is a reason not to.
 asio::awaitable<void> Session::read_loop() {
   const Result<void> ready = co_await stream_->handshake();
   if (!ready) {
@@ -85,7 +111,8 @@ asio::awaitable<void> Session::read_loop() {
     co_return;
   }
   for (;;) {
-    while (outbox_.full()) co_await wake_reader_.wait();
+    while (outbox_.full() && !closing_) co_await wake_reader_.wait();
+    if (closing_) co_return;
     Result<std::optional<Frame>> frame = co_await read_frame(*stream_, incoming_);
     if (frame && !frame->has_value()) co_return;  // the client has left
     Result<void> handled;
@@ -97,7 +124,7 @@ asio::awaitable<void> Session::read_loop() {
       handled = forward_error(frame);
     }
     if (!handled) {
-      reason_ = handled.error();
+      if (!reason_ && !closing_) reason_ = handled.error();
       co_return;
     }
   }
@@ -128,10 +155,7 @@ asio::awaitable<Result<void>> Session::handle(Frame frame) {
       co_return co_await open(id, std::move(*request));
     }
     case FrameType::GetParts: {
-      Result<GetParts> request = parse<GetParts>(frame.payload);
-      if (!request) co_return forward_error(request);
-      ++services_.counters.gets;
-      co_return co_await get(id, std::move(*request));
+      co_return co_await get(id, frame.payload);
     }
     case FrameType::Status: {
       const Result<Status> request = parse<Status>(frame.payload);
@@ -157,8 +181,9 @@ asio::awaitable<Result<void>> Session::handle(Frame frame) {
     case FrameType::Credit: {
       Result<Credit> credit = parse<Credit>(frame.payload);
       if (!credit) co_return forward_error(credit);
-      wake_writer_.notify();
-      co_return outbox_.grant(credit->bytes);
+      const Result<void> granted = outbox_.grant(credit->bytes);
+      wake_writer();
+      co_return granted;
     }
     case FrameType::Cancel: {
       const Result<Cancel> request = parse<Cancel>(frame.payload);
@@ -256,12 +281,33 @@ asio::awaitable<Result<void>> Session::open(std::uint32_t request_id, OpenModel 
   co_return Result<void>();
 }
 
-/// A get need not wait for an open's answer, nor even follow one.
-asio::awaitable<Result<void>> Session::get(std::uint32_t request_id, GetParts request) {
-  note_model("get", request_id, request.model);
-  Result<std::shared_ptr<const Pack>> pack = opened_pack(request.model);
-  if (*pack == nullptr) pack = co_await open_pack(request.model);
-  Result<Answer> answer = pack ? answer_get(request_id, request, *pack, limits_) : forward_error(pack);
+/// A get need not wait for an open's answer, nor even follow one. `payload` lives until the next read.
+asio::awaitable<Result<void>> Session::get(std::uint32_t request_id, std::span<const std::byte> payload) {
+  const bool is_small = payload.size() <= kSmallRequest;
+  auto parse_request = [payload] { return parse<GetParts>(payload); };
+  Result<GetParts> request;
+  if (is_small) {
+    request = parse_request();
+  } else {
+    request = co_await run_on(services_.workers, parse_request);
+  }
+  if (!request) co_return forward_error(request);
+  ++services_.counters.gets;
+  note_model("get", request_id, request->model);
+
+  Result<std::shared_ptr<const Pack>> pack = opened_pack(request->model);
+  if (*pack == nullptr) pack = co_await open_pack(request->model);
+  if (!pack) {
+    send_error(pack.error(), request_id);
+    co_return Result<void>();
+  }
+  auto look_up = [&] { return answer_get(request_id, *request, *pack, limits_); };
+  Result<Answer> answer;
+  if (is_small && (*pack)->directory().regions.size() <= kSmallModel) {
+    answer = look_up();
+  } else {
+    answer = co_await run_on(services_.workers, look_up);
+  }
   if (answer) {
     send_answer(std::move(*answer));
   } else {
@@ -284,7 +330,7 @@ asio::awaitable<Result<std::shared_ptr<const Pack>>> Session::open_pack(std::str
   if (pack) {
     std::erase_if(opened_, [&](const OpenedModel& model) { return model.name == name; });
     opened_.push_back({std::move(name), *pack});
-    if (opened_.size() > limits_.opened_models) opened_.pop_front();
+    if (opened_.size() > limits_.opened_models) opened_.erase(opened_.begin());
   }
   co_return pack;
 }
@@ -304,26 +350,58 @@ void Session::send_answer(Answer answer) {
                                   ? Result<void>(fail(ErrorCode::Unavailable, "the server is shutting down"))
                                   : outbox_.push_answer(std::move(answer));
   if (!queued) send_error(queued.error(), request_id);
-  wake_writer_.notify();
+  wake_writer();
+}
+
+/// There is a writer only while there is something to write: an idle connection does without.
+void Session::wake_writer() {
+  if (is_writing_) return rate_pause_.notify();
+  if (ended_) return;
+  is_writing_ = true;
+  ++writers_;
+  auto on_end = [this](std::exception_ptr thrown) {
+    --writers_;
+    if (thrown) {
+      is_writing_ = false;
+      thrown_ = thrown;
+      stream_->close();
+    }
+    writer_ended_.notify();
+  };
+  asio::co_spawn(stream_->executor(), write_loop(), std::move(on_end));
 }
 
 asio::awaitable<void> Session::write_loop() {
   Batch batch;
-  for (;;) {
-    outbox_.take(batch);
-    if (batch.empty()) {
-      if (closing_ || (draining_ && outbox_.idle() && !upload_)) break;
-      co_await wake_writer_.wait();
+  bool is_broken = false;
+  while (!is_broken) {
+    const auto now = RateLimit::Clock::now();
+    outbox_.take(batch, std::min<std::uint64_t>(stream_->write_size(), rate_.available(now)));
+    if (!batch.empty()) {
+      if (!outbox_.full()) wake_reader_.notify();
+      const Result<void> written = co_await write(batch);
+      is_broken = !written;
       continue;
     }
-    if (!outbox_.full()) wake_reader_.notify();
-    writing_.expires_after(limits_.write_timeout);
-    const Result<void> written = co_await stream_->write(batch.pieces());
-    writing_.clear();
-    if (!written) break;
-    services_.counters.bytes_sent += batch.size_bytes();
+    const auto pause = rate_.wait_for(kBurst, now);
+    if (outbox_.idle() || pause <= RateLimit::Clock::duration::zero()) break;
+    co_await rate_pause_.wait_for(pause);
   }
-  stream_->close();  // which ends the reader too
+  is_writing_ = false;
+  if (is_broken || closing_ || (draining_ && outbox_.idle() && !upload_)) {
+    closing_ = true;
+    stream_->close();  // which ends the reader
+    wake_reader_.notify();
+  }
+}
+
+asio::awaitable<Result<void>> Session::write(Batch& batch) {
+  rate_.spend(batch.size_bytes());
+  writing_.expires_after(limits_.write_timeout);
+  Result<void> written = co_await stream_->write(batch.pieces());
+  writing_.clear();
+  if (written) services_.counters.bytes_sent += batch.size_bytes();
+  co_return written;
 }
 
 }  // namespace selvage

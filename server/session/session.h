@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
 //
 // One client's connection on the server, from its Hello to its end. Two coroutines on one strand: the reader
-// takes requests and queues what answers them, the writer alone writes. They meet in the outbox.
+// takes requests and queues what answers them, the writer alone writes, and exists while there is something
+// to write. They meet in the outbox.
 //
 // Bad framing, an impossible message or credit, and a broken order of messages end the connection; any other
 // failure ends its request alone. What a client can cost is bounded by SessionLimits.
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/base/log.h"
 #include "common/net/byte_stream.h"
@@ -21,6 +22,7 @@
 #include "common/net/signal.h"
 #include "server/session/limits.h"
 #include "server/session/outbox.h"
+#include "server/session/rate_limit.h"
 #include "server/session/services.h"
 
 namespace selvage {
@@ -47,9 +49,12 @@ class Session {
   const std::optional<Error>& reason() const { return reason_; }
 
  private:
-  asio::awaitable<void> read_until_end();
+  void watch_deadlines();
+  void finish();
+  void wake_writer();
   asio::awaitable<void> read_loop();
   asio::awaitable<void> write_loop();
+  asio::awaitable<Result<void>> write(Batch& batch);
 
   Result<void> greet(const Frame& frame);
   void note(const char* what, std::uint32_t request_id, LogFields fields) const;
@@ -58,7 +63,7 @@ class Session {
   asio::awaitable<Result<void>> handle(Frame frame);
   asio::awaitable<Result<void>> list(std::uint32_t request_id, ListModels request);
   asio::awaitable<Result<void>> open(std::uint32_t request_id, OpenModel request);
-  asio::awaitable<Result<void>> get(std::uint32_t request_id, GetParts request);
+  asio::awaitable<Result<void>> get(std::uint32_t request_id, std::span<const std::byte> payload);
   asio::awaitable<Result<std::shared_ptr<const Pack>>> open_pack(std::string name);
   std::shared_ptr<const Pack> opened_pack(const std::string& name) const;
 
@@ -98,7 +103,7 @@ class Session {
   template <class Message>
   void send(const Message& message, std::uint32_t request_id) {
     outbox_.push_control(to_frame(message, request_id));
-    wake_writer_.notify();
+    wake_writer();
   }
   void send_error(const Error& error, std::uint32_t request_id);
   void send_answer(Answer answer);
@@ -117,13 +122,19 @@ class Session {
 
   FrameBuffer incoming_;
   Outbox outbox_;
-  Signal wake_writer_;  ///< something to send, or to stop for
+  RateLimit rate_;
+  Signal rate_pause_;   ///< ends early when there is something new to send
   Signal wake_reader_;  ///< the outbox has room again
   Deadline reading_;    ///< for the next whole frame
   Deadline writing_;    ///< for the write under way
 
-  std::deque<OpenedModel>
+  std::vector<OpenedModel>
       opened_;  ///< a get finds the pack that this client opened, whatever the store has since
+  Signal writer_ended_;
+  int writers_ = 0;            ///< whose coroutines have not come to their end
+  bool is_writing_ = false;    ///< one of them takes from the outbox
+  bool ended_ = false;         ///< no more writers
+  std::exception_ptr thrown_;  ///< by a loop
   std::optional<Uploading> upload_;
   std::uint32_t last_upload_ = 0;  ///< the request whose Data may still arrive; 0: none
   std::shared_ptr<Lifeline> lifeline_;

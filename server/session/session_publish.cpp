@@ -51,7 +51,7 @@ asio::awaitable<Result<void>> Session::publish(std::uint32_t request_id, Publish
   last_upload_ = request_id;
   const std::uint64_t held = upload_->upload->held();
   outbox_.push_control(to_frame(PublishReady{held}, request_id, upload_->seq++));
-  wake_writer_.notify();
+  wake_writer();
   if (held == size) co_await submit_upload();
   co_return Result<void>();
 }
@@ -109,7 +109,7 @@ asio::awaitable<void> Session::submit_upload() {
 void Session::tell_progress(std::uint32_t request_id, const PublishProgress& progress) {
   if (!upload_ || upload_->request_id != request_id || outbox_.full()) return;
   outbox_.push_control(to_frame(progress, request_id, upload_->seq++));
-  wake_writer_.notify();
+  wake_writer();
 }
 
 void Session::end_upload(std::uint32_t request_id, const Result<Published>& outcome) {
@@ -118,7 +118,7 @@ void Session::end_upload(std::uint32_t request_id, const Result<Published>& outc
   upload_.reset();
   if (!outcome) return send_error(outcome.error(), request_id);
   outbox_.push_control(to_frame(*outcome, request_id, seq));
-  wake_writer_.notify();
+  wake_writer();
 }
 
 bool Session::cancel_upload(std::uint32_t request_id) {

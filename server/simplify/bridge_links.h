@@ -39,6 +39,8 @@ class BridgeLinks {
   /// v takes over u's bridge edges.
   void collapse(VertexId u, VertexId v);
 
+  std::span<const std::vector<VertexId>> published() const { return published_; }
+
   /// From now on the level with these representatives is one that neighbours may be at. The finest level is
   /// published from the start.
   void publish(std::vector<VertexId> representative_of_vertex);

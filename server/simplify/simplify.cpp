@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "server/simplify/boundary_flips.h"
 #include "server/simplify/bridge_links.h"
 #include "server/simplify/collapse_mesh.h"
 #include "server/simplify/costs.h"
@@ -63,6 +64,7 @@ class Run {
   CollapseMesh mesh_;
   RemovedPoints points_;
   BridgeLinks bridges_;
+  BoundaryFlips flips_;
   std::optional<Quadrics> quadrics_;
 
   VertexQueue queue_;
@@ -95,6 +97,7 @@ Run::Run(const SimplifyInput& input, const SimplifyOptions& options)
       mesh_(input.mesh),
       points_(input.mesh.triangle_count(), input.positions),
       bridges_(input.mesh, input.region_of_vertex),
+      flips_(input.mesh, input.positions, input.region_of_vertex),
       queue_(input.mesh.vertex_count()),
       target_of_vertex_(input.mesh.vertex_count(), kNone),
       state_of_vertex_(input.mesh.vertex_count(), State::Dirty),
@@ -152,7 +155,8 @@ bool Run::keeps_links(std::uint32_t place) {
   if (!keeps_manifold(mesh_.table(), star_, place, stamps_)) return false;
   return class_of_vertex_[star_.centre] != VertexClass::Chain ||
          (keeps_region(mesh_.table(), input_.region_of_vertex, star_, place) &&
-          bridges_.keep_one_common_neighbour(star_.centre, star_.ring[place], stamps_));
+          bridges_.keep_one_common_neighbour(star_.centre, star_.ring[place], stamps_) &&
+          flips_.keep_normals(star_.centre, star_.ring[place], bridges_.published()));
 }
 
 /// Measures u's deviation if it is not known. False if u has to wait: parked for this level, or behind
@@ -189,6 +193,7 @@ void Run::collapse(std::uint32_t place) {
   if (options_.measures_deviation) points_.collapse(star_, place);
   if (quadrics_) quadrics_->collapse(u, v);
   bridges_.collapse(u, v);
+  flips_.collapse(u, v);
   mesh_.collapse(star_, place);
   queue_.remove(u);
   const double squared_deviation = options_.measures_deviation ? squared_deviation_of_vertex_[u] : 0;

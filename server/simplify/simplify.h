@@ -13,7 +13,8 @@
 // With region labels, a vertex moves only inside its region, and on a region's border only along it, towards
 // the same neighbour. The surface for any choice of a level for each region is then the finest mesh with each
 // corner replaced by its representative at its region's level, triangles that repeat a vertex dropped: an
-// oriented manifold with the same border, whatever the choice. bridge_links.h says why.
+// oriented manifold with the same border, whatever the choice. bridge_links.h says why, and boundary_flips.h
+// why its joins do not fold over.
 #pragma once
 
 #include <cstdint>

@@ -14,17 +14,10 @@ constexpr std::uint32_t kLeafSize = 4;
 constexpr double kStep = 1.02;
 /// Pieces of this share of the bound are not cut any more.
 constexpr double kSmall = 0.08;
+constexpr double kMargin = 1e-4;
+constexpr std::uint32_t kManyCorners = 8;
 
 }  // namespace
-
-double TriangleTree::Box::squared_distance(const Vec3& p) const {
-  double sum = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double d = std::max({low[axis] - p[axis], p[axis] - high[axis], 0.0});
-    sum += d * d;
-  }
-  return sum;
-}
 
 TriangleTree::TriangleTree(std::span<const Triangle> triangles, std::span<const Vec3> positions)
     : triangles_(triangles), positions_(positions) {
@@ -55,18 +48,27 @@ PreparedTriangle TriangleTree::prepared(std::uint32_t i) const {
   return {positions_[a], positions_[b], positions_[c]};
 }
 
-TriangleTree::Near TriangleTree::nearest(const Vec3& p, std::uint32_t hint,
-                                         std::vector<std::uint32_t>& stack) const {
-  Near near{hint, prepared(hint).squared_distance(p)};
-  stack.assign(1, 1);
+TriangleTree::Near TriangleTree::nearest(const Vec3& p, double nearer_than, std::vector<Open>& stack) const {
+  Near near{kNone, nearer_than};
+  const auto open = [&](std::uint32_t node, double squared) {
+    if (squared < near.squared_distance) stack.push_back({node, squared});
+  };
+  stack.clear();
+  open(1, boxes_[1].squared_distance(p));
   while (!stack.empty()) {
-    const std::uint32_t node = stack.back();
+    const auto [node, box_distance] = stack.back();
     stack.pop_back();
-    if (boxes_[node].squared_distance(p) >= near.squared_distance) continue;
+    if (box_distance >= near.squared_distance) continue;
     if (node < leaves_) {
-      const bool left_first = boxes_[2 * node].squared_distance(p) < boxes_[2 * node + 1].squared_distance(p);
-      stack.push_back(2 * node + left_first);
-      stack.push_back(2 * node + !left_first);
+      const double left = boxes_[2 * node].squared_distance(p);
+      const double right = boxes_[2 * node + 1].squared_distance(p);
+      if (left < right) {
+        open(2 * node + 1, right);
+        open(2 * node, left);
+      } else {
+        open(2 * node, left);
+        open(2 * node + 1, right);
+      }
       continue;
     }
     const std::uint32_t begin = (node - leaves_) * kLeafSize;
@@ -118,8 +120,17 @@ void CoverBound::cut(const Piece& piece, const Vec3& normal, double offset, Piec
   }
 }
 
-/// Across its longest line from a corner.
+/// Across its longest line from a corner; along one if it has many corners, which adds none.
 void CoverBound::halve(const Piece& piece) {
+  if (piece.count > kManyCorners) {
+    Piece one, other;
+    for (std::uint32_t i = 0; i <= piece.count / 2; ++i) one.push(piece.corners[i]);
+    for (std::uint32_t i = piece.count / 2; i < piece.count; ++i) other.push(piece.corners[i]);
+    other.push(piece.corners[0]);
+    pieces_.push_back(one);
+    pieces_.push_back(other);
+    return;
+  }
   std::uint32_t far = 1;
   double longest = 0;
   for (std::uint32_t i = 1; i < piece.count; ++i) {
@@ -139,28 +150,35 @@ bool CoverBound::clip_to(const PreparedTriangle& triangle, Piece piece) {
   if (triangle.normal_normal == 0 || piece.count + 3 > Piece::kMost) return false;
   const Vec3 corners[] = {triangle.a, triangle.a + triangle.ab, triangle.a + triangle.ac};
   const Vec3 middle = piece.middle();
+  std::array<Vec3, 3> inwards;
+  for (std::size_t side = 0; side < 3; ++side) {
+    inwards[side] = cross(triangle.normal, corners[(side + 1) % 3] - corners[side]);
+    // Only what holds the middle is worth clipping off: slivers along the plane would come for ever.
+    if (dot(inwards[side], middle - corners[side]) <= kMargin * length(inwards[side])) return false;
+  }
   const std::size_t before = pieces_.size();
-  for (int side = 0; side < 3; ++side) {
-    const Vec3 inwards = cross(triangle.normal, corners[(side + 1) % 3] - corners[side]);
+  for (std::size_t side = 0; side < 3; ++side) {
     Piece inside, outside;
-    // Only what holds the middle is worth clipping off: slivers would come for ever.
-    if (dot(inwards, middle - corners[side]) <= 0) piece.count = 0;
-    cut(piece, inwards, dot(inwards, corners[side]), inside, outside);
+    cut(piece, inwards[side], dot(inwards[side], corners[side]), inside, outside);
     if (outside.count > 2) pieces_.push_back(outside);
     piece = inside;
-    if (piece.count < 3) break;
   }
-  if (piece.count >= 3 && reach(triangle, piece) <= bound_) return true;
+  if (reach(triangle, piece) <= bound_) return true;
   pieces_.resize(before);
   return false;
 }
 
 void CoverBound::cover(const Piece& piece) {
-  if (reach(surface_.prepared(last_), piece) <= bound_) return;
-  const TriangleTree::Near near = surface_.nearest(piece.middle(), last_, stack_);
+  const PreparedTriangle last = surface_.prepared(last_);
+  if (reach(last, piece) <= bound_ || clip_to(last, piece)) return;
+  const Vec3 middle = piece.middle();
+  // Most often something lies within the bound, and looking no farther is quick.
+  TriangleTree::Near near = surface_.nearest(middle, bound_ * bound_, stack_);
+  if (near.triangle == kNone) {
+    near = surface_.nearest(middle, std::numeric_limits<double>::infinity(), stack_);
+    bound_ = std::max(bound_, kStep * std::sqrt(near.squared_distance));
+  }
   last_ = near.triangle;
-  const double distance = std::sqrt(near.squared_distance);
-  if (distance > bound_) bound_ = kStep * distance;
   const PreparedTriangle triangle = surface_.prepared(near.triangle);
   const double piece_reach = reach(triangle, piece);
   if (piece_reach <= bound_ || clip_to(triangle, piece)) return;

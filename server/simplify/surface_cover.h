@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "common/base/ids.h"
 #include "common/mesh/triangle_soup.h"
 #include "common/mesh/vec3.h"
 #include "server/simplify/point_triangle.h"
@@ -28,14 +29,27 @@ class TriangleTree {
     std::uint32_t triangle;
     double squared_distance;
   };
-  /// The triangle nearest to p; `hint` is one that may be near. `stack` is scratch.
-  Near nearest(const Vec3& p, std::uint32_t hint, std::vector<std::uint32_t>& stack) const;
+  /// A node still to be looked into, and how far its box is, squared.
+  struct Open {
+    std::uint32_t node;
+    double squared_distance;
+  };
+  /// The triangle nearest to p among those nearer than `nearer_than`, squared; kNone if there is none.
+  /// `stack` is scratch.
+  Near nearest(const Vec3& p, double nearer_than, std::vector<Open>& stack) const;
   PreparedTriangle prepared(std::uint32_t i) const;
 
  private:
   struct Box {
     Vec3 low, high;
-    double squared_distance(const Vec3& p) const;
+    double squared_distance(const Vec3& p) const {
+      const auto past = [](double at, double from, double to) {
+        const double below = from - at, above = at - to;
+        const double most = below > above ? below : above;
+        return most > 0 ? most * most : 0;
+      };
+      return past(p.x, low.x, high.x) + past(p.y, low.y, high.y) + past(p.z, low.z, high.z);
+    }
   };
 
   std::span<const Triangle> triangles_;
@@ -75,7 +89,7 @@ class CoverBound {
   double bound_;
   std::uint32_t last_ = 0;  // nearest to the piece before, and so likely near the next
   std::vector<Piece> pieces_;
-  std::vector<std::uint32_t> stack_;
+  std::vector<TriangleTree::Open> stack_;
 };
 
 }  // namespace selvage

@@ -31,7 +31,6 @@ std::vector<Draw> random_draws(std::uint32_t seed, std::size_t count) {
 constexpr unsigned kSymbolModel = 0, kLengthModel = 1;
 std::vector<StartModel> two_models() { return {fresh_model(), fresh_model()}; }
 
-template <int States>
 Bytes encode(const std::vector<Draw>& draws) {
   EntropyEncoder out;
   for (const Draw& d : draws) {
@@ -39,14 +38,13 @@ Bytes encode(const std::vector<Draw>& draws) {
     out.number(kLengthModel, d.number);
     out.bits(d.number, d.bits);
   }
-  return out.finish<States>(two_models()).bytes;
+  return out.finish(two_models()).bytes;
 }
 
-template <int States>
 void expect_round_trip(const std::vector<Draw>& draws) {
-  const Bytes bytes = encode<States>(draws);
+  const Bytes bytes = encode(draws);
   const auto start = two_models();
-  EntropyDecoder<States> in(bytes, start);
+  EntropyDecoder in(bytes, start);
   for (const Draw& d : draws) {
     ASSERT_EQ(in.symbol(kSymbolModel), d.symbol);
     ASSERT_EQ(in.number(kLengthModel), d.number);
@@ -57,8 +55,7 @@ void expect_round_trip(const std::vector<Draw>& draws) {
 
 TEST(EntropyCoder, RoundTripsSymbolsNumbersAndBits) {
   for (std::uint32_t seed = 0; seed < 20; ++seed) {
-    expect_round_trip<1>(random_draws(seed, seed * seed * 10));
-    expect_round_trip<2>(random_draws(seed, seed * seed * 10));
+    expect_round_trip(random_draws(seed, seed * seed * 10));
   }
 }
 
@@ -70,7 +67,7 @@ TEST(EntropyCoder, ComesCloseToTheEntropyOfAStationarySource) {
   EntropyEncoder out;
   constexpr int kCount = 20000;
   for (int i = 0; i < kCount; ++i) out.symbol(kSymbolModel, source(random));
-  EXPECT_NEAR(static_cast<double>(out.finish<1>(two_models()).bytes.size()) * 8 / kCount, entropy, 0.04);
+  EXPECT_NEAR(static_cast<double>(out.finish(two_models()).bytes.size()) * 8 / kCount, entropy, 0.04);
 }
 
 // How many bits follow must not depend on bits, else a stream cut short may be another whole one.
@@ -82,10 +79,10 @@ TEST(EntropyCoder, NoticesEveryTruncation) {
     out.symbol(kSymbolModel, d.symbol);
     out.bits(d.number, d.bits);
   }
-  const Bytes bytes = out.finish<2>(start).bytes;
+  const Bytes bytes = out.finish(start).bytes;
   for (std::size_t length = 0; length < bytes.size(); ++length) {
     const Bytes truncated(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(length));
-    EntropyDecoder<2> in(truncated, start);
+    EntropyDecoder in(truncated, start);
     for (const Draw& d : draws) {
       in.symbol(kSymbolModel);
       in.bits(d.bits);

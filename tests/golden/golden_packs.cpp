@@ -31,8 +31,10 @@ std::vector<GoldenPack> golden_packs() {
   defects.triangles.push_back(defects.triangles[3]);  // twice
   defects.triangles.push_back({defects.triangles[0][0], defects.triangles[9][1], defects.triangles[5][2]});
   std::swap(defects.triangles[7][0], defects.triangles[7][1]);  // turned
+  GoldenPack levels = make("levels", shapes::torus(20, 50), 200, 13);
+  levels.level_ratios = {0.4, 0.15};
   return {make("torus", shapes::torus(16, 40), 150, 12), make("pieces", pieces, 400, 14),
-          make("defects", defects, 100, 11), make("exact", shapes::sphere(3), 90, 10, true)};
+          make("defects", defects, 100, 11), make("exact", shapes::sphere(3), 90, 10, true), levels};
 }
 
 }  // namespace selvage

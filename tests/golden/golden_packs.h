@@ -17,6 +17,7 @@ struct GoldenPack {
   std::vector<std::uint32_t> labels;
   int bits;
   bool is_exact;
+  std::vector<double> level_ratios = {};  ///< of levels beside the finest
 };
 
 /// Holes, handles, pieces, junctions, turned triangles, welds and exact positions between them.

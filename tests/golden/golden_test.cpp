@@ -30,7 +30,8 @@ Bytes read_bytes(const std::string& path) {
 
 TEST(Golden, EncoderWritesTheSameBytes) {
   for (const GoldenPack& golden : golden_packs()) {
-    const Bytes bytes = labelled_pack(golden.soup, golden.labels, golden.bits, golden.is_exact);
+    const Bytes bytes =
+        labelled_pack(golden.soup, golden.labels, golden.bits, golden.is_exact, golden.level_ratios);
     if (std::getenv("SELVAGE_WRITE_GOLDEN") != nullptr) {
       std::ofstream out(path_of(golden), std::ios::binary);
       out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));

@@ -9,6 +9,7 @@
 namespace selvage {
 namespace {
 
+constexpr std::size_t kQuantum = 64u << 10;
 constexpr std::uint64_t kPlenty = std::uint64_t{1} << 30;
 
 std::shared_ptr<const Pack> fake_pack(std::uint32_t regions, std::uint32_t part_size) {
@@ -44,7 +45,7 @@ struct Sent {
 Sent drain(Outbox& outbox) {
   Sent sent;
   Batch batch;
-  for (outbox.take(batch); !batch.empty(); outbox.take(batch)) {
+  for (outbox.take(batch, kQuantum); !batch.empty(); outbox.take(batch, kQuantum)) {
     ++sent.batches;
     for (const FrameHeader& header : headers(batch)) {
       if (header.type == FrameType::Data) sent.data += header.length;
@@ -81,7 +82,7 @@ TEST(Outbox, ControlGoesWithoutCreditAndFirst) {
   outbox.push_control(to_frame(Pong{}, 9));
   ASSERT_TRUE(outbox.grant(kPlenty));
   Batch batch;
-  outbox.take(batch);
+  outbox.take(batch, kQuantum);
   EXPECT_EQ(headers(batch).front().type, FrameType::Pong);
   EXPECT_EQ(headers(batch).back().type, FrameType::RequestEnd);
   EXPECT_TRUE(outbox.idle());
@@ -112,8 +113,8 @@ TEST(Outbox, ABatchIsBounded) {
   ASSERT_TRUE(outbox.grant(kPlenty));
   for (int i = 0; i < 1000; ++i) outbox.push_control(to_frame(GoAway{std::string(500, 'x')}, 0));
   Batch batch;
-  for (outbox.take(batch); !batch.empty(); outbox.take(batch)) {
-    EXPECT_LE(batch.size_bytes(), Outbox::kQuantum + 1024);
+  for (outbox.take(batch, kQuantum); !batch.empty(); outbox.take(batch, kQuantum)) {
+    EXPECT_LE(batch.size_bytes(), kQuantum + 1024);
   }
 }
 
@@ -127,14 +128,14 @@ TEST(Outbox, RequestsTakeTurns) {
   std::map<std::uint32_t, std::size_t> data;
   Batch batch;
   for (int i = 0; i < 20; ++i) {
-    outbox.take(batch);
+    outbox.take(batch, kQuantum);
     for (const FrameHeader& header : headers(batch)) data[header.request_id] += header.length;
     // The small one comes after at most one turn of each before it.
     if (i == 2) {
       EXPECT_GT(data[3], 0u);
     }
   }
-  EXPECT_NEAR(static_cast<double>(data[1]), static_cast<double>(data[2]), 2 * Outbox::kQuantum);
+  EXPECT_NEAR(static_cast<double>(data[1]), static_cast<double>(data[2]), 2 * kQuantum);
 }
 
 /// Which requests the next batches carry data of, in order.
@@ -142,7 +143,7 @@ std::vector<std::uint32_t> turns(Outbox& outbox, int batches) {
   std::vector<std::uint32_t> ids;
   Batch batch;
   for (int i = 0; i < batches; ++i) {
-    outbox.take(batch);
+    outbox.take(batch, kQuantum);
     for (const FrameHeader& header : headers(batch)) {
       if (header.type == FrameType::Data && (ids.empty() || ids.back() != header.request_id))
         ids.push_back(header.request_id);
@@ -181,10 +182,10 @@ TEST(Outbox, CancelActsAfterOneBatch) {
   ASSERT_TRUE(outbox.push_answer(get_all(1, pack)));
   ASSERT_TRUE(outbox.grant(kPlenty));
   Batch batch;
-  outbox.take(batch);
+  outbox.take(batch, kQuantum);
   EXPECT_TRUE(outbox.cancel(1));
   EXPECT_FALSE(outbox.cancel(1));
-  outbox.take(batch);
+  outbox.take(batch, kQuantum);
   EXPECT_TRUE(batch.empty());
   EXPECT_TRUE(outbox.idle());
 }
@@ -194,7 +195,7 @@ TEST(Outbox, ABatchKeepsItsPackAlive) {
   ASSERT_TRUE(outbox.push_answer(get_all(1, fake_pack(1, 10'000))));
   ASSERT_TRUE(outbox.grant(kPlenty));
   Batch batch;
-  outbox.take(batch);
+  outbox.take(batch, kQuantum);
   EXPECT_TRUE(outbox.idle());  // the answer, and its hold on the pack, has gone
   EXPECT_EQ(headers(batch).size(), 3u);
 }

@@ -353,6 +353,53 @@ TEST(ServerSession, DropsAClientThatStopsReading) {
   EXPECT_EQ(harness.session().reason()->code, ErrorCode::Timeout);
 }
 
+TEST(ServerSession, ALimitOnTheRateHoldsDataBackAndNothingElse) {
+  // The burst of 64 KiB, and then so slowly that the rest does not come.
+  SessionHarness harness({.bytes_per_second = 1});
+  harness.folder().put("row.selvage", fake_pack_bytes(10, 100'000));
+  RawPeer peer(harness.connect());
+  const auto work = [](RawPeer& client) -> Work {
+    co_await greet(client);
+    co_await client.send(get_all(), 1);
+    std::optional<RawPeer::Received> frame = co_await client.receive_control();
+    EXPECT_TRUE(frame->is(FrameType::PartBegin));
+    for (std::uint32_t id = 7; id < 17; ++id) {
+      co_await client.send(Ping{}, id);
+      frame = co_await client.receive_control();
+      while (frame && frame->is(FrameType::PartBegin)) frame = co_await client.receive_control();
+      EXPECT_TRUE(frame && frame->is(FrameType::Pong) && frame->header.request_id == id);
+    }
+    EXPECT_LE(client.data_bytes(), 64u << 10);
+    co_await client.send(Cancel{}, 1);
+    co_await expect_refused(client, 1, ErrorCode::Cancelled);
+    client.close();
+  };
+  harness.run(work(peer));
+}
+
+TEST(ServerSession, ALargeRequestIsAnsweredTheSame) {
+  SessionHarness harness;  // beyond what is looked up on the strand: by its size, then by the model's
+  harness.folder().put("row.selvage", fake_pack_bytes(5000, 10));
+  RawPeer peer(harness.connect());
+  const auto work = [](RawPeer& client) -> Work {
+    co_await greet(client);
+    GetParts get = get_all();
+    get.selection.kind = Selection::Kind::Ids;
+    get.selection.ids.assign(30'000, 17);
+    co_await client.send(get, 1);
+    co_await expect_whole_answer(client, 1, 1);
+    co_await client.send(get_all(), 2);
+    co_await expect_whole_answer(client, 2, 9999);
+    std::vector<std::byte> garbage(200'000, std::byte{0xFF});
+    FrameHeader header{200'000, FrameType::GetParts, 0, 3, 0};
+    garbage.insert(garbage.begin(), kFrameHeaderSize, std::byte{0});
+    write_header(header, HeaderBytes(garbage.data(), kFrameHeaderSize));
+    co_await client.send_bytes(std::move(garbage));
+    co_await expect_end(client, ErrorCode::Protocol);
+  };
+  harness.run(work(peer));
+}
+
 TEST(ServerSession, StopsReadingFromAClientThatFloodsWithoutListening) {
   SessionHarness harness({.write_timeout = 50ms, .queued_bytes = 4096});
   RawPeer peer(harness.connect());

@@ -101,6 +101,29 @@ TEST(Levels, AnyMixIsAManifoldWithTheBordersOfTheInput) {
   }
 }
 
+// Two loops that turn together can both be cut short without a trace; against the other one left fine, the
+// cut lies across its bends.
+TEST(Levels, NoMixFoldsAFlatMesh) {
+  const TriangleSoup soup = shapes::grid(40, 40);
+  std::vector<std::uint32_t> labels;
+  for (const Vec3& p : soup.positions) labels.push_back(p.y > 20 + 8 * std::sin(p.x / 3));
+  LabelledMesh mesh{
+      "wave", build_corner_table(soup.triangles, std::uint32_t(soup.positions.size())), soup.positions, {}};
+  mesh.segmentation = regularise(mesh.table, labels, {}, mesh.positions);
+  ASSERT_EQ(mesh.segmentation.region_count, 2u);
+  const LevelledMesh levels = levels_of(mesh);
+  const auto count = static_cast<std::uint32_t>(levels.regions.size());
+  for (std::uint32_t one = 0; one < count; ++one) {
+    for (std::uint32_t other = 0; other < count; ++other) {
+      for (const auto& [a, b, c] : mix(mesh, levels, std::vector<std::uint32_t>{0, one, other})) {
+        const Vec3 normal =
+            cross(soup.positions[b] - soup.positions[a], soup.positions[c] - soup.positions[a]);
+        ASSERT_GT(normal.z, 0) << "levels " << one << " and " << other;
+      }
+    }
+  }
+}
+
 TEST(Levels, OneRegionAloneAtEveryLevelIsValid) {
   const LabelledMesh mesh = labelled("torus", shapes::torus(30, 90), 1.1);
   const LevelledMesh levels = levels_of(mesh);

@@ -13,7 +13,7 @@ namespace selvage {
 
 /// Any label a vertex of the soup; regularisation makes them codable.
 Bytes labelled_pack(const TriangleSoup& soup, std::span<const std::uint32_t> label_of_vertex, int bits,
-                    bool is_exact = false);
+                    bool is_exact = false, std::span<const double> level_ratios = {});
 
 /// Labels that form patches: vertices in cubes of side `cell` share one.
 std::vector<std::uint32_t> cube_labels(const TriangleSoup& soup, double cell);

@@ -147,7 +147,7 @@ Bytes levelled_pack(const LevelledModel& model, int bits) {
   ModelSource source{mesh.table, mesh.positions, mesh.source_of_vertex, mesh.is_turned, model.partition};
   source.levels = &model.levels;
   EncodedModel encoded = encode_model(source, make_grid(mesh.positions, bits), serial_for(), [] {});
-  encoded.directory.name = "levelled";
+  encoded.directory.name = model.name;
   encoded.directory.vertices =
       static_cast<std::uint32_t>(std::set(mesh.source_of_vertex.begin(), mesh.source_of_vertex.end()).size());
   encoded.directory.triangles = mesh.table.triangle_count();

@@ -24,9 +24,17 @@ void digest_region(ByteReader& in, Digest& digest) {
   DecodeLimits expected;
   expected.vertices = in.u16();
   expected.triangles = in.u16();
-  if (in.u8() & 1) expected.exact = Grid{.origin = {-1, 0, 1e-3}, .step = 1e-4, .bits = 24};
+  const std::uint8_t flags = in.u8();
+  if (flags & 1) expected.exact = Grid{.origin = {-1, 0, 1e-3}, .step = 1e-4, .bits = 24};
   for (int axis = 0; axis < 3; ++axis) expected.box_min[axis] = in.u16();
   for (int axis = 0; axis < 3; ++axis) expected.box_max[axis] = expected.box_min[axis] + in.u16();
+  std::vector<std::uint32_t> loops;
+  if (flags & 2) {
+    const int dropped_bits = in.u8() % 16;
+    loops.resize(in.u8());
+    for (std::uint32_t& length : loops) length = in.u16();
+    expected.coarse = CoarseLevel{loops, dropped_bits};
+  }
   const auto region = decode_region(in.take(in.left()), expected);
   digest.add(region.has_value());
   if (!region) return;
@@ -34,6 +42,7 @@ void digest_region(ByteReader& in, Digest& digest) {
   for (const GridPoint& p : region->positions)
     digest.add(static_cast<std::uint64_t>(p.x) << 40 ^ static_cast<std::uint64_t>(p.y) << 20 ^
                static_cast<std::uint64_t>(p.z));
+  for (VertexId v : region->vertex_of_boundary) digest.add(v);
   for (const ExactPosition& exact : region->exact) {
     for (float x : exact) digest.add(std::bit_cast<std::uint32_t>(x));
   }

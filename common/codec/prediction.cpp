@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "common/codec/prediction.h"
+
+namespace selvage {
+namespace {
+
+/// Stands for a feature that is always the same.
+constexpr float kConstantFeature = 64;
+
+/// Every product and sum is exact.
+float blended(std::int16_t weight, unsigned quarters) {
+  return static_cast<float>(weight * static_cast<int>(quarters)) * (1.0F / 4096);
+}
+
+}  // namespace
+
+Predictor::Predictor(const CodecTables& tables, const Blends& blends)
+    : tangent_blend_(static_cast<float>(blends.tangent) * 0.25F) {
+  for (unsigned i = 0; i < kShapeClasses; ++i) {
+    const ShapeWeights& weights = tables.shape[i];
+    shape_[i] = {blended(weights.beyond, blends.shape), blended(weights.ring, blends.shape),
+                 blended(weights.trend, blends.trend)};
+  }
+  for (unsigned c = 0; c < kSizeClasses; ++c) {
+    const std::array<SizeWeights, 3>& axes = tables.size[c];
+    for (unsigned i = 0; i < kCommonSizeFeatures; ++i) {
+      size_[c][i] = FloatLanes{static_cast<float>(axes[0][i]), static_cast<float>(axes[1][i]),
+                               static_cast<float>(axes[2][i]), 0};
+    }
+    size_[c][6] *= kConstantFeature;
+    known_[c] = {axes[1][7], {axes[2][7], axes[2][8]}};
+  }
+}
+
+std::array<double, kSizeFeatures> Predictor::size_features(const Surroundings& around, std::int32_t log_u,
+                                                           std::int32_t log_w) {
+  return {around.logs[0],
+          around.logs[1],
+          around.logs[2],
+          around.logs[3],
+          static_cast<double>(around.recent_tangential),
+          static_cast<double>(around.recent_normal),
+          kConstantFeature,
+          static_cast<double>(log_u),
+          static_cast<double>(log_w)};
+}
+
+}  // namespace selvage
