@@ -3,6 +3,8 @@
 # Copies the public headers, and all of ours that they include, to selvage_include_folder. A header keeps its place:
 # client/fetch/model.h becomes <selvage/client/fetch/model.h>, and so do the includes in it, so that none of them can
 # be taken for a header of the program that uses us.
+cmake_minimum_required(VERSION 3.25)
+
 set(waiting ${selvage_public_headers})
 set(done)
 while(waiting)

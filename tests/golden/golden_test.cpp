@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The format does not change by accident: the packs in this folder are what today's encoder writes, byte for
-// byte, and what every later decoder reads. A change of format that is meant writes them anew:
+// byte, and what every later decoder reads. The seeds of the fuzz targets are their parts. A change of format
+// that is meant writes them all anew:
 //   SELVAGE_WRITE_GOLDEN=1 build/release/tests/golden_test
 #include <cstdlib>
 #include <fstream>
@@ -10,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "common/mesh/same_mesh.h"
+#include "tests/golden/fuzz_seeds.h"
 #include "tests/golden/golden_packs.h"
 #include "tests/support/labelled_pack.h"
 #include "tests/support/unpack.h"
@@ -19,6 +21,13 @@ namespace {
 
 std::string path_of(const GoldenPack& golden) {
   return std::string(SELVAGE_GOLDEN_DIR) + "/" + golden.name + ".selvage";
+}
+
+bool is_to_write() { return std::getenv("SELVAGE_WRITE_GOLDEN") != nullptr; }
+
+void write_bytes(const std::string& path, std::span<const std::byte> bytes) {
+  std::ofstream out(path, std::ios::binary);
+  out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 }
 
 Bytes read_bytes(const std::string& path) {
@@ -32,10 +41,7 @@ TEST(Golden, EncoderWritesTheSameBytes) {
   for (const GoldenPack& golden : golden_packs()) {
     const Bytes bytes =
         labelled_pack(golden.soup, golden.labels, golden.bits, golden.is_exact, golden.level_ratios);
-    if (std::getenv("SELVAGE_WRITE_GOLDEN") != nullptr) {
-      std::ofstream out(path_of(golden), std::ios::binary);
-      out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    }
+    if (is_to_write()) write_bytes(path_of(golden), bytes);
     EXPECT_EQ(bytes, read_bytes(path_of(golden))) << golden.name;
   }
 }
@@ -50,6 +56,20 @@ TEST(Golden, DecoderRestoresTheMesh) {
     const double tolerance = golden.is_exact ? 0 : (*pack)->directory().grid.step / 2;
     const MeshComparison comparison = compare_meshes(golden.soup, stitched->soup, tolerance);
     EXPECT_TRUE(comparison.same) << comparison.difference;
+  }
+}
+
+TEST(Golden, FuzzTargetsStartFromItsParts) {
+  for (const GoldenPack& golden : golden_packs()) {
+    const auto pack = Pack::from_bytes(read_bytes(path_of(golden)));
+    ASSERT_TRUE(pack) << pack.error().message;
+    const auto seeds = fuzz_seeds(**pack, golden.name);
+    EXPECT_FALSE(seeds.empty()) << golden.name;
+    for (const auto& [name, bytes] : seeds) {
+      const std::string path = std::string(SELVAGE_FUZZ_CORPUS_DIR) + "/" + name;
+      if (is_to_write()) write_bytes(path, bytes);
+      EXPECT_EQ(bytes, read_bytes(path)) << name;
+    }
   }
 }
 

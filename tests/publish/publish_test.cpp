@@ -66,7 +66,7 @@ class Publishes : public ::testing::Test {
   }
 
   TestServer server{{}, AccessTable::parse(kTokens).value(), nullptr, publishing({})};
-  TextFile torus{obj_text(shapes::torus(60, 80)), "torus.obj"};
+  TextFile torus{obj_text(shapes::torus(110, 130)), "torus.obj"};
 };
 
 TEST_F(Publishes, AMeshOfManyFramesComesBackAsItWas) {
@@ -78,7 +78,7 @@ TEST_F(Publishes, AMeshOfManyFramesComesBackAsItWas) {
   };
   const auto published = client.publish(torus.request("ring"), note);
   ASSERT_TRUE(published) << published.error().message;
-  EXPECT_EQ(published->triangles, 9600u);
+  EXPECT_EQ(published->triangles, 28600u);
   EXPECT_EQ(torus.read_bytes, torus.text.size());
   for (const char* stage : {"", "wait", "check", "encode"}) {
     EXPECT_NE(std::ranges::find(stages, stage), stages.end()) << stage;
@@ -89,7 +89,7 @@ TEST_F(Publishes, AMeshOfManyFramesComesBackAsItWas) {
 
   const auto pack = Pack::open(server.folder().path() / "ring.selvage").value();
   const auto mesh = unpack(*pack).value();
-  EXPECT_TRUE(compare_meshes(shapes::torus(60, 80), mesh.soup, pack->directory().grid.step * 0.51).same);
+  EXPECT_TRUE(compare_meshes(shapes::torus(110, 130), mesh.soup, pack->directory().grid.step * 0.51).same);
 }
 
 TEST_F(Publishes, NeedsTheScope) {
