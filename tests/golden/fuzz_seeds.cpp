@@ -9,7 +9,7 @@ namespace selvage {
 namespace {
 
 /// Fuzzing goes best from small inputs.
-constexpr std::size_t kLargestPart = 1024, kLargestPack = 3072;
+constexpr std::size_t kLargestPart = 1024, kLargestPack = 3072;  // of one without levels
 /// About so many regions of a pack, spread over it.
 constexpr std::size_t kRegions = 6;
 
@@ -70,7 +70,7 @@ std::map<std::string, Bytes> fuzz_seeds(const Pack& pack, const std::string& nam
   const auto keep = [&](const std::string& key, std::optional<Bytes> bytes) {
     if (bytes) seeds.emplace(key, std::move(*bytes));
   };
-  if (pack.bytes().size() <= kLargestPack) {
+  if (pack.bytes().size() <= kLargestPack || pack.directory().level_count() > 1) {
     seeds.emplace("fuzz_pack/" + name, Bytes(pack.bytes().begin(), pack.bytes().end()));
   }
   const Directory& directory = pack.directory();
