@@ -55,7 +55,7 @@ for ((i = 0; i < 200; ++i)); do
   [[ ! -s port.txt ]] || break
   sleep 0.05
 done
-model=localhost:$(cat port.txt)/car
+model=127.0.0.1:$(cat port.txt)/car
 
 for part in wheel_left body bolt_3; do
   grid "$part" > "$part.obj"
