@@ -149,7 +149,11 @@ TEST(ScriptedClient, FindsWhatDoesNotDecode) {
   TestServer server;
   server.folder().put("row.selvage", fake_pack_bytes(3));
   const KindReport report = run(server, "client a 1\ndecode\nopen row\nget all");
-  EXPECT_EQ(report.errors.at("get all: BadStream"), 1u);
+  ASSERT_EQ(report.errors.size(), 1u);
+  // Whichever part is decoded first decides: some of them look like those of a later version.
+  const std::string& what = report.errors.begin()->first;
+  EXPECT_TRUE(what == "get all: BadStream" || what == "get all: Unsupported") << what;
+  EXPECT_EQ(report.errors.begin()->second, 1u);
 }
 
 /// Rounds every 5 ms of steps that take 20: each is later than the one before, and its latency says so.
