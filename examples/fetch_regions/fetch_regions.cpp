@@ -18,7 +18,8 @@ int main(int argc, char** argv) {
     std::printf("region %u: %u triangles\n", arrived.region, arrived.triangles);
   };
   events.on_update = [](const selvage::StitchUpdate& changes) {
-    std::printf("%zu vertices and %zu patches changed\n", changes.vertices.size(), changes.patches.size());
+    std::printf("stitched: %zu vertices and %zu patches changed\n", changes.vertices.size(),
+                changes.patches.size());
   };
   auto fetch = model->fetch(*selection, events);
   fetch.reprioritise(0);  // say, because the regions came into view
