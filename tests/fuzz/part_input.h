@@ -109,7 +109,8 @@ inline std::optional<Bytes> write_bundle_input(const BundleInput& input) {
   out.u8(static_cast<std::uint8_t>(input.loops.size() - 1));
   for (const auto& lengths : input.loops) {
     fits = fits && lengths.size() < 8 &&
-           std::ranges::all_of(lengths, [](std::uint32_t length) { return length >= 1 && length <= 256; });
+           std::all_of(lengths.begin(), lengths.end(),
+                       [](std::uint32_t length) { return length >= 1 && length <= 256; });
     out.u8(static_cast<std::uint8_t>(lengths.size()));
     for (const std::uint32_t length : lengths) out.u8(static_cast<std::uint8_t>(length - 1));
   }
