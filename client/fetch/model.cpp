@@ -28,6 +28,11 @@ struct Model::State {
     const ShowOptions show{fetch_options(), options.decode_threads};
     return manifest ? LiveModel(manifest, *source, show) : LiveModel(*source, show);
   }
+  /// Errors of files name them already.
+  Error named(Error error) const {
+    if (!error.message.starts_with(name)) error.message = name + ": " + error.message;
+    return error;
+  }
   /// Parts that are cached can only be left out of a request by who has the directory.
   bool is_worth_opening_first() const { return !manifest && cache && cache->has_visited(name); }
   Result<void> open(std::stop_token stop) {
@@ -46,7 +51,7 @@ class Fetch::Work {
         dial_(std::make_shared<UrgencyDial>(urgency)),
         thread_([this, selection = std::move(selection)](const std::stop_token& stop) {
           outcome_ = run(selection, stop);
-          if (!outcome_) outcome_->error().message = model_.name + ": " + outcome_->error().message;
+          if (!*outcome_) outcome_ = tl::unexpected(model_.named(std::move(outcome_->error())));
         }) {}
 
   void cancel() { thread_.request_stop(); }
@@ -63,11 +68,12 @@ class Fetch::Work {
     if (model_.is_worth_opening_first()) {
       if (auto ok = model_.open(stop); !ok) return forward_error(ok);
     }
+    // Before anything comes: what an interrupted fetch leaves in the cache is of use to the next.
+    if (model_.cache) model_.cache->note_visit(model_.name);
     LiveModel live = model_.live();
     auto shown = live.show(selection, events_, stop, dial_);
     if (!shown) return forward_error(shown);
     model_.manifest = live.manifest();
-    if (model_.cache) model_.cache->note_visit(model_.name);
     FetchedModel model;
     model.mesh = live.mesh();
     model.regions = shown->regions;
@@ -107,7 +113,7 @@ Result<Model> Model::open(const std::string& source, ModelOptions options, std::
   auto model = at(source, std::move(options));
   if (!model) return model;
   auto opened = model->state_->open(std::move(stop));
-  if (!opened) return forward_error(opened, opened.error().message.starts_with(source) ? "" : source);
+  if (!opened) return tl::unexpected(model->state_->named(std::move(opened.error())));
   return model;
 }
 
