@@ -17,7 +17,7 @@ struct PublishCommand {
   int bits = 14;
   bool lossless = false;
   bool replace = false;
-  int retries = 8;  ///< connections lost in a row
+  double retry_seconds = 60;  ///< of failing with nothing getting through; 0: never try again
   bool json = false;
   ServerOptions connection;
 };

@@ -4,12 +4,11 @@
 // still missing when a connection breaks.
 #pragma once
 
-#include <chrono>
-#include <functional>
 #include <stop_token>
 
 #include "client/cache/part_cache.h"
-#include "client/fetch/backoff.h"
+#include "client/fetch/missing_parts.h"
+#include "client/fetch/retrying.h"
 #include "client/session/part_source.h"
 
 namespace selvage {
@@ -17,8 +16,7 @@ namespace selvage {
 struct FetchPartsOptions {
   PartCache* cache = nullptr;  ///< borrowed; null: none
   RetryPolicy retry;
-  /// Told of every failure that is not the last word, and how long the fetch will wait.
-  std::function<void(const Error&, std::chrono::milliseconds)> on_retry = {};
+  Retrying::OnRetry on_retry = {};
 };
 
 struct FetchPartsStats {
@@ -29,9 +27,14 @@ struct FetchPartsStats {
   std::uint32_t retries = 0;
 };
 
-/// Every part of the request's selection reaches `on_part` once, on the calling thread; its `have` is not
-/// used. Ends with the first error that will not pass, with that of `on_part`, or with the last of those that
-/// might have passed once the policy gives up. Cancelled soon after `stop`.
+/// Every part that is missing reaches `on_part` once, on the calling thread. `missing` belongs to the
+/// request's selection; the request's `have` is not used. Ends with the first error that will not pass, with
+/// that of `on_part`, or with the last of those that might have passed once the policy gives up. Cancelled
+/// soon after `stop`.
+Result<FetchPartsStats> fetch_parts(PartSource& source, GetRequest request, MissingParts missing,
+                                    const PartSource::OnPart& on_part, const FetchPartsOptions& options,
+                                    std::stop_token stop = {});
+/// The same with nothing there yet.
 Result<FetchPartsStats> fetch_parts(PartSource& source, GetRequest request, const PartSource::OnPart& on_part,
                                     const FetchPartsOptions& options, std::stop_token stop = {});
 
@@ -39,8 +42,5 @@ Result<FetchPartsStats> fetch_parts(PartSource& source, GetRequest request, cons
 Result<std::shared_ptr<const Manifest>> open_with_retries(PartSource& source,
                                                           const FetchPartsOptions& options,
                                                           std::stop_token stop = {});
-
-/// Whether the same may succeed later, without anybody changing anything.
-bool may_pass(const Error& error);
 
 }  // namespace selvage

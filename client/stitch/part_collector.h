@@ -31,7 +31,7 @@ class PartCollector {
 
   StitchUpdate take_update();
   StitchedMesh mesh() const;
-  std::size_t region_count() const;
+  std::vector<RegionId> regions() const;  ///< that are there, ascending
   /// Nothing if the region is not there.
   std::optional<std::uint8_t> level_of(RegionId region) const;
 
