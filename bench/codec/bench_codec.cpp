@@ -21,6 +21,7 @@
 
 #include "bench/codec/joins.h"
 #include "bench/codec/rivals.h"
+#include "bench/codec/two_cores.h"
 #include "bench/support/corpus.h"
 #include "bench/train/trainer.h"
 #include "client/decode/bundle_decoder.h"
@@ -106,17 +107,15 @@ struct Costs {
     return model >= region_model::kTurned ? "turned, anchors" : "region headers";
   }
 
-  void add(const PartId& id, const EntropyEncoder& symbols, const CodecTables& tables) {
+  void add(const PartId& id, std::span<const Token> tokens, double plain_bits, const CodecTables& tables) {
     SymbolModels models(id.kind == PartKind::Region ? tables.region : tables.bundle);
-    for (const Token& token : symbols.tokens()) {
+    for (const Token& token : tokens) {
       bits[class_of(id.kind, token.model)] +=
           kProbabilityBits - std::log2(models.range(token.model, token.symbol).frequency);
       models.update(token.model, token.symbol);
     }
-    bits[id.kind == PartKind::Region ? "signs, low bits" : "join indices"] +=
-        static_cast<double>(symbols.bit_count());
-    bits[id.kind == PartKind::Region ? "region flush" : "bundle flush"] +=
-        id.kind == PartKind::Region ? 40 : 16;
+    bits[id.kind == PartKind::Region ? "signs, low bits" : "join indices"] += plain_bits;
+    if (id.kind == PartKind::Region) bits["region flush"] += 40;
   }
 };
 
@@ -126,7 +125,7 @@ void bench_whole(const Model& model, const Grid& grid, const CodecTables& tables
   const RegionSource source{model.mesh.table, mesh.positions, {}, {}};
   EntropyEncoder symbols;
   const EncodedRegion ours = encode_region(source, tables, &symbols);
-  costs.add({PartKind::Region, 1}, symbols, tables);
+  costs.add({PartKind::Region, 1}, symbols.tokens(), symbols.plain_bits(), tables);
   const DecodeLimits limits{source.table.vertex_count(), source.table.triangle_count(), ours.box.low,
                             ours.box.high};
   const auto cl7 = draco_encode(mesh, 7, grid.bits), cl10 = draco_encode(mesh, 10, grid.bits);
@@ -197,8 +196,9 @@ void bench_default(const Model& model, const Grid& grid, const CodecTables& tabl
   const Partition partition =
       make_partition(mesh.table, segmentation.region_of_vertex, segmentation.region_count);
   const ModelSource source{mesh.table, mesh.positions, mesh.source_of_vertex, mesh.is_turned, partition};
-  const EncodeHooks hooks{
-      tables, [&](const PartId& id, const EntropyEncoder& symbols) { costs.add(id, symbols, tables); }};
+  const EncodeHooks hooks{tables, [&](const PartId& id, std::span<const Token> tokens, double plain_bits) {
+                            costs.add(id, tokens, plain_bits, tables);
+                          }};
   EncodedModel encoded = encode_model(
       source, grid, serial_for(), [] {}, hooks);
   encoded.directory.vertices = mesh.table.vertex_count();
@@ -240,6 +240,24 @@ void bench_default(const Model& model, const Grid& grid, const CodecTables& tabl
       welding.wrong_welds, 1e3 * welding.seconds);
 }
 
+/// In default segmentation, at 12 bits.
+void bench_two_cores(const Model& model, const Options& options, Totals& totals) {
+  const RepairedMesh& mesh = model.mesh;
+  const Segmentation segmentation = segment(mesh.table, mesh.positions, {}, serial_for());
+  const Partition partition =
+      make_partition(mesh.table, segmentation.region_of_vertex, segmentation.region_count);
+  const DecodingTimes times =
+      decode_on_two_cores(mesh, partition, make_grid(mesh.positions, 12), 3 * options.repeats);
+  totals.add("decode on one core", times.one_core);
+  totals.add("decode on two cores", times.two_cores);
+  std::printf(
+      "%-30s 12 decode and stitch %u regions: one core %.2f ms, two %.2f ms, %.2f times as fast; by the "
+      "clock %.2f and %.2f ms, %.2f times\n",
+      model.name.c_str(), partition.region_count, 1e3 * times.one_core, 1e3 * times.two_cores,
+      times.one_core / times.two_cores, 1e3 * times.one_thread_wall, 1e3 * times.two_threads_wall,
+      times.one_thread_wall / times.two_threads_wall);
+}
+
 void bench_model(const Model& model, const CodecTables& tables, const Options& options, Totals& totals,
                  Costs& whole, Costs& segmented) {
   for (int bits : options.bits) {
@@ -250,6 +268,7 @@ void bench_model(const Model& model, const CodecTables& tables, const Options& o
     }
     bench_default(model, grid, tables, totals, segmented);
   }
+  bench_two_cores(model, options, totals);
 }
 
 /// Names that mean the same shape in different files.
@@ -323,6 +342,8 @@ int run(const Options& options) {
                 totals.ratio("decode cl7 " + tag, "decode " + tag),
                 totals.ratio("encode cl10 " + tag, "encode " + tag));
   }
+  std::printf("decoding and stitching on two cores: %.2f times as fast as on one\n",
+              totals.ratio("decode on one core", "decode on two cores"));
   for (const auto& [name, costs] :
        {std::pair{"whole", &whole}, std::pair{"default segmentation", &segmented}}) {
     double all = 0;
