@@ -35,26 +35,20 @@ std::vector<RegionId> all_regions(const Directory& directory) {
   return regions;
 }
 
-/// Which regions' bundles to send, by region.
-std::vector<bool> select_bundles(const Directory& directory, const Selection& selection,
-                                 const std::vector<bool>& is_selected) {
-  std::vector<bool> is_sent(directory.regions.size(), false);
-  if (selection.joins == Joins::None) return is_sent;
-  for (RegionId id = 0; id < directory.regions.size(); ++id) {
-    const RegionEntry& entry = directory.regions[id];
-    if (entry.bundle.size == 0) continue;
-    const bool touches_selected =
-        std::any_of(entry.lower_neighbours.begin(), entry.lower_neighbours.end(),
-                    [&](RegionId below) { return below < is_selected.size() && is_selected[below]; });
-    const bool touches_loose =
-        !entry.lower_neighbours.empty() && entry.lower_neighbours.front() == kLooseRegion;
-    is_sent[id] = selection.joins == Joins::All ? is_selected[id] || touches_selected
-                                                : is_selected[id] && (touches_selected || touches_loose);
-  }
+/// Whether the selection brings the bundle of `id`.
+bool is_bundle_sent(const Directory& directory, const Selection& selection,
+                    const std::vector<bool>& is_selected, RegionId id) {
+  const RegionEntry& entry = directory.regions[id];
+  if (selection.joins == Joins::None || entry.bundle.size == 0) return false;
   // Triangles of loose vertices alone belong to no real region: they go with the whole model.
-  const RegionEntry& loose = directory.regions[kLooseRegion];
-  if (loose.bundle.size > 0) is_sent[kLooseRegion] = selection.kind == Selection::Kind::All;
-  return is_sent;
+  if (id == kLooseRegion) return selection.kind == Selection::Kind::All;
+  const auto& below = entry.lower_neighbours;
+  const bool touches_selected = std::any_of(below.begin(), below.end(), [&](RegionId other) {
+    return other < is_selected.size() && is_selected[other];
+  });
+  const bool touches_loose = !below.empty() && below.front() == kLooseRegion;
+  return selection.joins == Joins::All ? is_selected[id] || touches_selected
+                                       : is_selected[id] && (touches_selected || touches_loose);
 }
 
 template <class T>
@@ -88,18 +82,22 @@ Result<void> add_range(const RegionRange& range, std::vector<RegionId>& ids) {
   return {};
 }
 
-/// By region; those that are not selected have one, too.
-std::vector<std::uint8_t> levels_of(const Directory& directory, const Selection& selection) {
-  std::vector<std::uint8_t> level_of_region(directory.regions.size(), selection.level);
-  std::vector<bool> is_named(directory.regions.size(), false);
-  for (const auto& [region, level] : selection.levels) {
-    if (region >= directory.regions.size()) continue;
-    std::uint8_t& chosen = level_of_region[region];
-    chosen = is_named[region] ? std::min(chosen, level) : level;
-    is_named[region] = true;
+/// The levels that a selection asks for.
+class ChosenLevels {
+ public:
+  explicit ChosenLevels(const Selection& selection) : usual_(selection.level), chosen_(selection.levels) {
+    // The finest of several comes first.
+    std::ranges::sort(chosen_, {}, [](const auto& at) { return std::pair(at.what, at.level); });
   }
-  return level_of_region;
-}
+  std::uint8_t of(RegionId region) const {
+    const auto found = std::ranges::lower_bound(chosen_, region, {}, &AtLevel<RegionId>::what);
+    return found != chosen_.end() && found->what == region ? found->level : usual_;
+  }
+
+ private:
+  std::uint8_t usual_;
+  std::vector<AtLevel<RegionId>> chosen_;
+};
 
 /// Takes "@2" off the end of a piece, if there is such a thing.
 Result<std::optional<std::uint8_t>> take_level(std::string_view& piece) {
@@ -192,26 +190,27 @@ Result<std::vector<PartId>> select_parts(const Directory& directory, const Selec
   if (!regions) return forward_error(regions);
   std::vector<bool> is_selected(directory.regions.size(), false);
   for (RegionId id : *regions) is_selected[id] = true;
-  const std::vector<bool> is_bundle_sent = select_bundles(directory, selection, is_selected);
+  const ChosenLevels levels(selection);
 
-  const std::vector<std::uint8_t> level_of_region = levels_of(directory, selection);
+  // A large model's directory is not in the processor's cache: no more of it is looked at than must be.
+  std::vector<RegionId> looked_at;
+  looked_at.push_back(kLooseRegion);
+  const bool brings_bundles_of_others = selection.joins == Joins::All;
+  const std::vector<RegionId> real = brings_bundles_of_others ? all_regions(directory) : *regions;
+  looked_at.insert(looked_at.end(), real.begin(), real.end());
 
   std::vector<PartId> parts;
-  const RegionEntry& loose = directory.regions[kLooseRegion];
-  bool needs_loose = is_bundle_sent[kLooseRegion];
-  for (RegionId id = 1; id < directory.regions.size(); ++id) {
+  bool needs_loose = false;
+  for (RegionId id : looked_at) {
     const RegionEntry& entry = directory.regions[id];
-    needs_loose |= is_bundle_sent[id] && !entry.lower_neighbours.empty() &&
-                   entry.lower_neighbours.front() == kLooseRegion;
+    if (is_selected[id]) parts.push_back({PartKind::Region, id, entry.canonical_level(levels.of(id))});
+    if (!is_bundle_sent(directory, selection, is_selected, id)) continue;
+    parts.push_back({PartKind::Bundle, id, 0});
+    needs_loose |= id == kLooseRegion ||
+                   (!entry.lower_neighbours.empty() && entry.lower_neighbours.front() == kLooseRegion);
   }
-  if (needs_loose && !loose.levels.empty()) parts.push_back({PartKind::Region, kLooseRegion, 0});
-  for (RegionId id = 0; id < directory.regions.size(); ++id) {
-    const RegionEntry& entry = directory.regions[id];
-    if (is_selected[id]) {
-      parts.push_back({PartKind::Region, id, entry.canonical_level(level_of_region[id])});
-    }
-    if (is_bundle_sent[id]) parts.push_back({PartKind::Bundle, id, 0});
-  }
+  const bool has_loose = !directory.regions[kLooseRegion].levels.empty();
+  if (needs_loose && has_loose) parts.insert(parts.begin(), {PartKind::Region, kLooseRegion, 0});
   return parts;
 }
 
