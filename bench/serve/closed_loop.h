@@ -36,7 +36,7 @@ struct LoopResult {
 /// Throws std::runtime_error when a server does not answer as it should.
 LoopResult run_closed_loop(const LoopPlan& plan);
 
-/// A blocking connection to 127.0.0.1.
-int connect_to(std::uint16_t port);
+/// A blocking connection. `address`: in digits.
+int connect_to(std::uint16_t port, const std::string& address = "127.0.0.1");
 
 }  // namespace selvage::bench

@@ -39,10 +39,10 @@ std::string as_text(const std::vector<std::byte>& bytes) {
 }  // namespace
 
 Peer start_selvage(const std::string& binary, const std::filesystem::path& folder,
-                   const std::vector<std::string>& options) {
+                   const std::vector<std::string>& options, const std::string& host) {
   const std::string port_file = folder / "port.txt";
   std::filesystem::remove(port_file);
-  std::vector<std::string> command{binary,        "--store", folder.string(), "--listen", "127.0.0.1:0",
+  std::vector<std::string> command{binary,        "--store", folder.string(), "--listen", host + ":0",
                                    "--port-file", port_file, "--threads",     "1"};
   command.insert(command.end(), options.begin(), options.end());
   Peer peer;
@@ -52,19 +52,20 @@ Peer start_selvage(const std::string& binary, const std::filesystem::path& folde
   return peer;
 }
 
-Peer start_nginx(const std::filesystem::path& folder) {
+Peer start_nginx(const std::filesystem::path& folder, const std::string& host) {
   std::stringstream text;
   text << std::ifstream(SELVAGE_NGINX_CONF).rdbuf();
   Peer peer;
   peer.port = static_cast<std::uint16_t>(20'000 + ::getpid() % 20'000);
   const std::string conf = folder / "nginx.conf";
-  std::ofstream(conf) << replaced(replaced(text.str(), "@ROOT@", folder), "@PORT@",
-                                  std::to_string(peer.port));
+  std::string filled = replaced(text.str(), "@ROOT@", folder);
+  filled = replaced(std::move(filled), "@ADDRESS@", host);
+  std::ofstream(conf) << replaced(std::move(filled), "@PORT@", std::to_string(peer.port));
   const std::vector<std::string> command{"nginx", "-c", conf, "-e", folder / "nginx-error.log"};
   peer.process = std::make_unique<Process>(command, folder / "nginx.out");
   wait_for(*peer.process, "nginx", [&] {
     try {
-      ::close(connect_to(peer.port));
+      ::close(connect_to(peer.port, host));
       return true;
     } catch (const std::runtime_error&) {
       return false;

@@ -20,10 +20,10 @@ struct Peer {
   std::uint16_t port = 0;
 };
 
-/// `binary`: selvage-server. Throws if it does not come up.
+/// `binary`: selvage-server. `host`: the address to listen on. Throws if it does not come up.
 Peer start_selvage(const std::string& binary, const std::filesystem::path& folder,
-                   const std::vector<std::string>& options = {});
-Peer start_nginx(const std::filesystem::path& folder);
+                   const std::vector<std::string>& options = {}, const std::string& host = "127.0.0.1");
+Peer start_nginx(const std::filesystem::path& folder, const std::string& host = "127.0.0.1");
 
 /// A folder of its own, removed with what is in it.
 class BenchFolder {

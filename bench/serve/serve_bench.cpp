@@ -86,16 +86,18 @@ int main(int argc, char** argv) try {
   CLI::App app("Server CPU a part, idle connections, pings under load.", "serve_bench");
   std::string server = "build/release/bin/selvage-server";
   unsigned rounds = 5, idle = 10'000;
+  int only = -1;
   double seconds = 1.5;
   app.add_option("--server", server, "selvage-server to measure")->capture_default_str();
   app.add_option("--rounds", rounds, "of each comparison; medians are reported")->capture_default_str();
   app.add_option("--seconds", seconds, "of each measurement")->capture_default_str();
   app.add_option("--idle", idle, "connections to hold; 0 leaves that out")->capture_default_str();
+  app.add_option("--only", only, "one of the comparisons, counted from 0")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
 
-  const Work works[] = {{"p4", 4 << 10, 4096, 64, 8},   {"p16", 16 << 10, 2048, 64, 8},
-                        {"p64", 64 << 10, 1024, 1, 16}, {"p64", 64 << 10, 1024, 1, 256},
-                        {"p1m", 1 << 20, 64, 1, 16},    {"p1m", 1 << 20, 64, 1, 256}};
+  const std::vector<Work> works = {{"p4", 4 << 10, 4096, 64, 8},   {"p16", 16 << 10, 2048, 64, 8},
+                                   {"p64", 64 << 10, 1024, 1, 16}, {"p64", 64 << 10, 1024, 1, 256},
+                                   {"p1m", 1 << 20, 64, 1, 16},    {"p1m", 1 << 20, 64, 1, 256}};
   BenchFolder folder;
   std::map<std::string, std::shared_ptr<const Pack>> packs;
   for (const Work& work : works) {
@@ -107,7 +109,11 @@ int main(int argc, char** argv) try {
     const Peer selvage = start_selvage(server, folder.path());
     std::printf("%7s %6s %6s %10s %10s %7s %11s %11s %9s %9s %7s\n", "part", "batch", "conns", "cpu us",
                 "nginx us", "ratio", "parts/s", "nginx", "p99 ms", "nginx", "ratio");
-    for (const Work& work : works) compare(selvage, nginx, *packs[work.model], work, rounds, seconds);
+    for (const Work& work : works) {
+      if (only < 0 || &work == &works[only])
+        compare(selvage, nginx, *packs[work.model], work, rounds, seconds);
+    }
+    if (only >= 0) return 0;
 
     for (unsigned others : {0u, 4u}) {
       const PingTimes pings = ping_under_bulk(selvage, "p1m", others, 4 * seconds);
@@ -119,7 +125,9 @@ int main(int argc, char** argv) try {
     }
   }
   if (idle == 0) return 0;
-  const Peer fresh = start_selvage(server, folder.path(), {"--max-connections", std::to_string(idle + 200)});
+  const std::string most = std::to_string(idle + 200);
+  const Peer fresh = start_selvage(server, folder.path(),
+                                   {"--max-connections", most, "--max-connections-per-address", most});
   const IdleCost cost = hold_idle(fresh, idle);
   std::printf("idle: %u connections held, %u answered a ping, %.0f bytes of the server's memory each\n",
               cost.connections, cost.answered, cost.bytes_each);

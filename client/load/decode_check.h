@@ -20,11 +20,7 @@ class DecodeCheck : public std::enable_shared_from_this<DecodeCheck> {
  public:
   DecodeCheck(boost::asio::io_context& io, boost::asio::thread_pool& workers,
               std::shared_ptr<const Manifest> manifest)
-      : io_(io),
-        workers_(workers),
-        manifest_(std::move(manifest)),
-        collector_(manifest_->directory),
-        done_(io.get_executor()) {}
+      : io_(io), workers_(workers), manifest_(std::move(manifest)), collector_(manifest_->directory) {}
 
   /// `on_region` is called on the thread of `io` when the part was a region.
   void add(ReceivedPart part, std::function<void()> on_region);

@@ -23,8 +23,7 @@ std::size_t quantum(std::uint64_t bytes_per_second) {
 
 /// Writes on their way; outlives the stream until the last has left.
 struct Uplink {
-  Uplink(std::unique_ptr<ByteStream> s, std::chrono::milliseconds d)
-      : stream(std::move(s)), delay(d), wakes(stream->executor()) {}
+  Uplink(std::unique_ptr<ByteStream> s, std::chrono::milliseconds d) : stream(std::move(s)), delay(d) {}
 
   struct Waiting {
     Clock::time_point due;

@@ -59,8 +59,6 @@ ClientSession::ClientSession(std::unique_ptr<ByteStream> stream, ClientOptions o
     : stream_(std::move(stream)),
       options_(std::move(options)),
       incoming_(kMaxPayload, options_.read_bytes),
-      wake_writer_(stream_->executor()),
-      wake_upload_(stream_->executor()),
       greeting_(stream_->executor()),
       greeted_(stream_->executor()),
       window_(options_.window_bytes) {
@@ -368,7 +366,7 @@ asio::awaitable<Result<void>> ClientSession::exchange(Message message, AnswerRea
   if (ended_) co_return tl::unexpected(*ended_);
   if (going_away_) co_return fail(ErrorCode::Unavailable, *going_away_);
   if (stop.stop_requested()) co_return fail(ErrorCode::Cancelled, "cancelled");
-  Pending pending{reader, Signal(stream_->executor()), std::nullopt, 0};
+  Pending pending{reader, Signal(), std::nullopt, 0};
   if constexpr (requires { message.urgency; }) pending.urgency = message.urgency;
   pending.least_urgency = least_urgency;
   const PendingEntry entry(shared_from_this(), pending);

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <boost/asio/any_io_executor.hpp>
@@ -22,18 +23,8 @@ namespace selvage {
 
 namespace asio = boost::asio;
 
-/// Bytes to write. They are in memory in any case; if a file holds them too, a stream may take them from
-/// there.
-struct Piece : std::span<const std::byte> {
-  using std::span<const std::byte>::span;
-  Piece() = default;
-  Piece(std::span<const std::byte> bytes) : std::span<const std::byte>(bytes) {}
-  int file = -1;  ///< open descriptor, or -1
-  std::uint64_t file_offset = 0;
-};
-
-/// Pieces that are written one after the other, as if they were one.
-using Pieces = std::vector<Piece>;
+/// Bytes that are written one after the other, as if they were one piece.
+using Pieces = std::vector<std::span<const std::byte>>;
 
 class ByteStream {
  public:
@@ -42,18 +33,26 @@ class ByteStream {
   /// What must be agreed with the peer before bytes flow; called once, first. TCP has nothing to agree.
   virtual asio::awaitable<Result<void>> handshake() { co_return Result<void>(); }
 
+  /// Returns when there is something to read, or when there may be: for those who want to hold no buffer
+  /// meanwhile.
+  virtual asio::awaitable<std::tuple<boost::system::error_code>> wait_to_read() {
+    co_return boost::system::error_code();
+  }
+
   /// Reads at least one byte into `into`, which is not empty; 0 when the peer has ended the stream.
   virtual asio::awaitable<Result<std::size_t>> read_some(std::span<std::byte> into) = 0;
 
   /// Writes all of it. The pieces and what they point at stay until it is done.
   virtual asio::awaitable<Result<void>> write(const Pieces& pieces) = 0;
 
-  /// How much one write should carry. What a write has begun cannot be taken back, so on a far connection, or
-  /// one that may be, it is little: a cancel or an urgent answer then waits behind little. On a near one it
-  /// is more, since every write costs a turn of the event loop.
-  virtual std::size_t write_size() const { return kFarWrite; }
-  static constexpr std::size_t kFarWrite = 32u << 10;
-  static constexpr std::size_t kNearWrite = 256u << 10;
+  /// Returns when what was written before is nearly gone, so that what is written next goes soon. To be
+  /// awaited before each write of data; then is the time to choose what to write.
+  virtual asio::awaitable<Result<void>> wait_to_write() { co_return Result<void>(); }
+
+  /// How much that write should carry. What a write has begun cannot be taken back: a cancel or an urgent
+  /// answer waits behind it.
+  virtual std::size_t write_size() const { return kUsualWrite; }
+  static constexpr std::size_t kUsualWrite = 32u << 10;
 
   /// Ends both directions; what is under way fails with Cancelled. May be called again.
   virtual void close() = 0;

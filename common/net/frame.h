@@ -100,6 +100,11 @@ class FrameBuffer {
 
   /// No bytes of an unfinished frame are held: the peer may end here.
   bool between_frames() const { return begin_ == end_; }
+  /// Gives the room back until the next writable(); between frames only.
+  void release() {
+    bytes_ = {};
+    begin_ = end_ = 0;
+  }
 
  private:
   std::size_t wanted() const;

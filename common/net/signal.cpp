@@ -5,24 +5,25 @@
 
 namespace selvage {
 
-Signal::Signal(boost::asio::any_io_executor executor)
-    : timer_(std::move(executor), boost::asio::steady_timer::time_point::max()) {}
-
 void Signal::notify() {
   notified_ = true;
-  timer_.cancel();
+  if (timer_) timer_->cancel();
 }
 
 boost::asio::awaitable<void> Signal::wait() {
-  if (!notified_) co_await timer_.async_wait(kAwait);
-  notified_ = false;
+  return wait_until(std::chrono::steady_clock::time_point::max());
 }
 
 boost::asio::awaitable<void> Signal::wait_for(std::chrono::steady_clock::duration at_most) {
+  return wait_until(std::chrono::steady_clock::now() + at_most);
+}
+
+boost::asio::awaitable<void> Signal::wait_until(std::chrono::steady_clock::time_point at_latest) {
   if (!notified_) {
-    timer_.expires_after(at_most);
-    co_await timer_.async_wait(kAwait);
-    timer_.expires_at(boost::asio::steady_timer::time_point::max());
+    timer_ =
+        std::make_unique<boost::asio::steady_timer>(co_await boost::asio::this_coro::executor, at_latest);
+    co_await timer_->async_wait(kAwait);
+    timer_.reset();
   }
   notified_ = false;
 }

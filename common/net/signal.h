@@ -4,6 +4,7 @@
 #pragma once
 
 #include <chrono>
+#include <memory>
 
 #include <boost/asio/awaitable.hpp>
 #include <boost/asio/steady_timer.hpp>
@@ -13,8 +14,6 @@ namespace selvage {
 /// Single-strand, one waiter at a time. A notify() before the wait is not lost; several count as one.
 class Signal {
  public:
-  explicit Signal(boost::asio::any_io_executor executor);
-
   void notify();
 
   /// Returns once notified, or when the waiting coroutine is cancelled.
@@ -23,7 +22,9 @@ class Signal {
   boost::asio::awaitable<void> wait_for(std::chrono::steady_clock::duration at_most);
 
  private:
-  boost::asio::steady_timer timer_;  ///< being cancelled is the event
+  boost::asio::awaitable<void> wait_until(std::chrono::steady_clock::time_point at_latest);
+
+  std::unique_ptr<boost::asio::steady_timer> timer_;  ///< while somebody waits; being cancelled is the event
   bool notified_ = false;
 };
 

@@ -5,10 +5,9 @@
 #include <array>
 #include <cerrno>
 #include <charconv>
-#include <netinet/tcp.h>
-#include <sys/sendfile.h>
 #include <sys/socket.h>
 #include <sys/uio.h>
+#include <utility>
 
 #include <boost/asio/connect.hpp>
 #include <boost/asio/experimental/awaitable_operators.hpp>
@@ -16,6 +15,7 @@
 #include <boost/asio/steady_timer.hpp>
 
 #include "common/net/await.h"
+#include "common/net/send_pace.h"
 
 namespace selvage {
 namespace {
@@ -23,62 +23,40 @@ namespace {
 using asio::ip::tcp;
 using boost::system::error_code;
 
-/// Bytes handed to the kernel but not yet sent: enough to keep a fast link busy between two writes. The
-/// kernel takes up to this and one segment of at most 64 KiB.
-constexpr int kNotSentLowWater = 32 << 10;
-constexpr int kNotSentLowWaterNear = 512 << 10;
-/// A round trip below which little time is lost behind what waits in the kernel.
-constexpr unsigned kNearMicroseconds = 2000;
-
-/// From a file, smaller pieces cost more than they save: see docs/DECISIONS.md.
-constexpr std::size_t kSendfileFrom = 192u << 10;
-
-/// The handshake has measured it. Unknown is far.
-bool is_near(int socket) {
-  tcp_info info{};
-  socklen_t size = sizeof info;
-  return ::getsockopt(socket, IPPROTO_TCP, TCP_INFO, &info, &size) == 0 && info.tcpi_rtt < kNearMicroseconds;
-}
-
 /// What is left of the pieces of one write, sent with a system call at a time.
 class Unsent {
  public:
   explicit Unsent(const Pieces& pieces) : pieces_(pieces) { skip_empty(); }
 
   bool empty() const { return next_ == pieces_.size(); }
-  bool has_file() const { return std::ranges::any_of(pieces_, from_file); }
 
   /// As ::send does.
   ssize_t send(int socket) {
-    const ssize_t sent = from_file(pieces_[next_]) ? send_file(socket) : send_memory(socket);
-    if (sent > 0) advance(static_cast<std::size_t>(sent));
-    return sent;
-  }
-
- private:
-  static bool from_file(const Piece& piece) { return piece.file >= 0 && piece.size() >= kSendfileFrom; }
-
-  /// SIGPIPE cannot be held off here: who serves files ignores it.
-  ssize_t send_file(int socket) {
-    const Piece& piece = pieces_[next_];
-    auto offset = static_cast<off_t>(piece.file_offset + done_);
-    return ::sendfile(socket, piece.file, &offset, piece.size() - done_);
-  }
-
-  ssize_t send_memory(int socket) {
     std::array<iovec, 128> parts;
     std::size_t count = 0, at = next_;
-    for (; at < pieces_.size() && count < parts.size() && !from_file(pieces_[at]); ++at) {
+    for (; at < pieces_.size() && count < parts.size(); ++at) {
       const std::size_t done = at == next_ ? done_ : 0;
       parts[count++] = {const_cast<std::byte*>(pieces_[at].data()) + done, pieces_[at].size() - done};
     }
     msghdr message{};
     message.msg_iov = parts.data();
     message.msg_iovlen = count;
-    const bool more = at < pieces_.size();  // a header travels with what it announces
-    return ::sendmsg(socket, &message, MSG_NOSIGNAL | (more ? MSG_MORE : 0));
+    const bool more = at < pieces_.size();
+    const ssize_t sent = ::sendmsg(socket, &message, MSG_NOSIGNAL | (more ? MSG_MORE : 0));
+    if (sent > 0) advance(static_cast<std::size_t>(sent));
+    return sent;
   }
 
+  /// Reads a byte of every page of it.
+  void look_through() const {
+    for (std::size_t at = next_; at < pieces_.size(); ++at) {
+      const volatile std::byte* bytes = pieces_[at].data();
+      for (std::size_t i = 0; i < pieces_[at].size(); i += 1024) (void)bytes[i];
+      if (!pieces_[at].empty()) (void)bytes[pieces_[at].size() - 1];
+    }
+  }
+
+ private:
   void advance(std::size_t bytes) {
     while (bytes > 0) {
       const std::size_t step = std::min(bytes, pieces_[next_].size() - done_);
@@ -98,32 +76,16 @@ class Unsent {
   std::size_t next_ = 0, done_ = 0;  ///< piece, and bytes of it
 };
 
-/// What is sent from a file cannot say that more follows: without this the next header would be a packet of
-/// its own, which costs more than the two calls.
-class Cork {
- public:
-  Cork(tcp::socket& socket, bool is_needed) : socket_(socket), is_needed_(is_needed) { set(1); }
-  ~Cork() { set(0); }
-  Cork(const Cork&) = delete;
-  Cork& operator=(const Cork&) = delete;
-
- private:
-  void set(int value) const {
-    if (is_needed_ && socket_.is_open())  // it may be closed meanwhile
-      ::setsockopt(socket_.native_handle(), IPPROTO_TCP, TCP_CORK, &value, sizeof value);
-  }
-  tcp::socket& socket_;
-  const bool is_needed_;
-};
-
 class TcpStream final : public ByteStream {
  public:
-  explicit TcpStream(tcp::socket socket) : socket_(std::move(socket)) {
-    tune_for_sessions(socket_);
+  explicit TcpStream(tcp::socket socket) : socket_(std::move(socket)), pace_(socket_) {
     error_code ignored;
+    socket_.set_option(tcp::no_delay(true), ignored);
     socket_.native_non_blocking(true, ignored);
-    near_ = is_near(socket_.native_handle());
-    peer_ = peer_of(socket_);
+  }
+
+  asio::awaitable<std::tuple<error_code>> wait_to_read() override {
+    return socket_.async_wait(tcp::socket::wait_read, kAwait);
   }
 
   asio::awaitable<Result<std::size_t>> read_some(std::span<std::byte> into) override {
@@ -135,12 +97,16 @@ class TcpStream final : public ByteStream {
   }
 
   asio::awaitable<Result<void>> write(const Pieces& pieces) override {
-    bool waited = false;
+    bool waited = false, was_looked_through = false;
     Unsent unsent(pieces);
-    const Cork cork(socket_, unsent.has_file());
     while (!unsent.empty()) {
       if (!socket_.is_open()) co_return connection_failure(asio::error::operation_aborted);
       if (unsent.send(socket_.native_handle()) >= 0 || errno == EINTR) continue;
+      // The kernel finds no bytes where a mapped file was cut short; we do, or learn of it: mapped_file.h.
+      if (errno == EFAULT && !std::exchange(was_looked_through, true)) {
+        unsent.look_through();
+        continue;
+      }
       if (errno != EAGAIN && errno != EWOULDBLOCK) {
         co_return connection_failure(error_code(errno, boost::system::system_category()));
       }
@@ -153,7 +119,8 @@ class TcpStream final : public ByteStream {
     co_return Result<void>();
   }
 
-  std::size_t write_size() const override { return near_ ? kNearWrite : kFarWrite; }
+  asio::awaitable<Result<void>> wait_to_write() override { return pace_.wait(); }
+  std::size_t write_size() const override { return pace_.write_size(); }
 
   void close() override {
     error_code ignored;
@@ -162,12 +129,11 @@ class TcpStream final : public ByteStream {
   }
 
   asio::any_io_executor executor() override { return socket_.get_executor(); }
-  std::string peer() const override { return peer_; }
+  std::string peer() const override { return peer_of(socket_); }
 
  private:
   tcp::socket socket_;
-  bool near_ = false;
-  std::string peer_;
+  SendPace pace_;
 };
 
 using Endpoints = tcp::resolver::results_type;
@@ -200,18 +166,33 @@ asio::awaitable<void> pause(std::chrono::steady_clock::duration duration) {
 
 }  // namespace
 
-void tune_for_sessions(tcp::socket& socket) {
-  error_code ignored;
-  socket.set_option(tcp::no_delay(true), ignored);
-  using NotSentLowWater = asio::detail::socket_option::integer<IPPROTO_TCP, TCP_NOTSENT_LOWAT>;
-  const bool near = is_near(socket.native_handle());
-  socket.set_option(NotSentLowWater(near ? kNotSentLowWaterNear : kNotSentLowWater), ignored);
-}
-
 std::string peer_of(const tcp::socket& socket) {
   error_code ignored;
   const tcp::endpoint remote = socket.remote_endpoint(ignored);
   return HostPort{remote.address().to_string(), remote.port()}.to_string();
+}
+
+Result<void> listen_on(tcp::acceptor& acceptor, const HostPort& address) {
+  error_code error;
+  tcp::resolver resolver(acceptor.get_executor());
+  const auto found =
+      resolver.resolve(address.host, std::to_string(address.port), tcp::resolver::passive, error);
+  if (error) return fail(ErrorCode::InvalidArgument, "no such host: " + address.host);
+  const tcp::endpoint endpoint = found.begin()->endpoint();
+  acceptor.open(endpoint.protocol(), error);
+  if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);
+  if (!error) acceptor.bind(endpoint, error);
+  if (!error) acceptor.listen(tcp::acceptor::max_listen_connections, error);
+  if (error) {
+    return fail(ErrorCode::Unavailable, "cannot listen on " + address.to_string() + ": " + error.message());
+  }
+  return {};
+}
+
+HostPort address_of(const tcp::acceptor& acceptor) {
+  error_code ignored;
+  const tcp::endpoint local = acceptor.local_endpoint(ignored);
+  return {local.address().to_string(), local.port()};
 }
 
 tl::unexpected<Error> connection_failure(const error_code& error) {

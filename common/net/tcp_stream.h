@@ -13,12 +13,11 @@
 namespace selvage {
 
 /// Takes over a connected socket, whose executor must be a strand (or the only thread of its io_context).
-/// Sets TCP_NODELAY, since a session gathers what it sends, and a low TCP_NOTSENT_LOWAT, so that what waits
-/// to be sent waits in the session, where it can still be cancelled.
+/// Sets TCP_NODELAY, since a session gathers what it sends, and a SendPace, so that what waits to be sent
+/// waits in the session, where it can still be cancelled.
 std::unique_ptr<ByteStream> make_tcp_stream(asio::ip::tcp::socket socket);
 
-/// The same for streams on top of one: sets these options; names the peer; says how a connection failed.
-void tune_for_sessions(asio::ip::tcp::socket& socket);
+/// For streams on top of one: names the peer; says how a connection failed.
 std::string peer_of(const asio::ip::tcp::socket& socket);
 tl::unexpected<Error> connection_failure(const boost::system::error_code& error);
 
@@ -37,5 +36,10 @@ struct HostPort {
   std::string to_string() const;
 };
 Result<HostPort> parse_host_port(std::string_view text, std::string_view default_host = "127.0.0.1");
+
+/// Opens, binds and listens; port 0 picks a free one. InvalidArgument: no such host; Unavailable says why
+/// not.
+Result<void> listen_on(asio::ip::tcp::acceptor& acceptor, const HostPort& address);
+HostPort address_of(const asio::ip::tcp::acceptor& acceptor);  ///< with the port that was picked
 
 }  // namespace selvage

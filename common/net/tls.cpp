@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "common/net/tls.h"
 
+#include <algorithm>
 #include <cassert>
 
 #include <boost/asio/ssl.hpp>
@@ -10,6 +11,7 @@
 #include <openssl/x509v3.h>
 
 #include "common/net/await.h"
+#include "common/net/send_pace.h"
 #include "common/net/tcp_stream.h"
 
 namespace selvage {
@@ -87,9 +89,12 @@ class TlsStream final : public ByteStream {
   /// `host` is empty on the server's side.
   TlsStream(tcp::socket socket, std::shared_ptr<TlsContext> context, std::string host)
       : context_(std::move(context)),
-        stream_((tune_for_sessions(socket), std::move(socket)), context_->context),
+        stream_(std::move(socket), context_->context),
+        pace_(stream_.next_layer()),
         host_(std::move(host)),
         peer_(peer_of(stream_.next_layer())) {
+    error_code ignored;
+    stream_.next_layer().set_option(tcp::no_delay(true), ignored);
     if (!host_.empty()) expect_host();
   }
 
@@ -122,6 +127,10 @@ class TlsStream final : public ByteStream {
     co_return Result<void>();
   }
 
+  asio::awaitable<Result<void>> wait_to_write() override { return pace_.wait(); }
+  /// Records are encrypted one by one in any case: large writes save less than they delay.
+  std::size_t write_size() const override { return std::min(pace_.write_size(), kUsualWrite); }
+
   void close() override {
     error_code ignored;
     stream_.next_layer().shutdown(tcp::socket::shutdown_both, ignored);
@@ -147,6 +156,7 @@ class TlsStream final : public ByteStream {
 
   std::shared_ptr<TlsContext> context_;
   ssl::stream<tcp::socket> stream_;
+  SendPace pace_;
   std::vector<asio::const_buffer> buffers_;
   const std::string host_;
   const std::string peer_;

@@ -102,7 +102,7 @@ struct PageEntry {
   GridPoint box_min, box_max;  ///< of its regions
   bool is_read = false;        ///< its regions are in `regions`
 };
-inline constexpr std::uint32_t kRegionsPerPage = 256;
+inline constexpr std::uint32_t kRegionsPerPage = 64;
 inline constexpr std::uint32_t page_of(RegionId region) { return region / kRegionsPerPage; }
 
 struct Directory {

@@ -2,13 +2,7 @@
 #include "common/pack/pack.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
-
-#include <fcntl.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "common/coding/byte_io.h"
 
@@ -30,25 +24,6 @@ void write_header(ByteWriter& out, const PackHeader& header) {
 }
 
 }  // namespace
-
-/// A read-only private mapping of a whole file, which stays open.
-class Pack::Mapping {
- public:
-  Mapping(int file, void* data, std::size_t size) : file_(file), data_(data), size_(size) {}
-  ~Mapping() {
-    munmap(data_, size_);
-    ::close(file_);
-  }
-  Mapping(const Mapping&) = delete;
-  Mapping& operator=(const Mapping&) = delete;
-  std::span<const std::byte> bytes() const { return {static_cast<const std::byte*>(data_), size_}; }
-  int file() const { return file_; }
-
- private:
-  int file_;
-  void* data_;
-  std::size_t size_;
-};
 
 Result<PackHeader> parse_pack_header(std::span<const std::byte> bytes, std::uint64_t file_size) {
   if (bytes.size() < kPackHeaderSize)
@@ -84,23 +59,11 @@ Pack::Pack() = default;
 Pack::~Pack() = default;
 
 Result<std::shared_ptr<const Pack>> Pack::open(const std::filesystem::path& path) {
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) {
-    const auto code = errno == ENOENT ? ErrorCode::NotFound : ErrorCode::Io;
-    return fail(code, path.string() + ": " + std::strerror(errno));
-  }
-  struct stat status {};
-  const bool is_file = fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_size > 0;
-  const auto size = is_file ? static_cast<std::size_t>(status.st_size) : 0;
-  void* data = is_file ? mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file, 0) : MAP_FAILED;
-  if (data == MAP_FAILED) {
-    ::close(file);
-    return fail(ErrorCode::Io, path.string() + ": not a readable, non-empty file");
-  }
-
+  auto mapped = MappedFile::open(path);
+  if (!mapped) return forward_error(mapped);
   std::shared_ptr<Pack> pack(new Pack);
-  pack->mapping_ = std::make_unique<Mapping>(file, data, size);
-  pack->bytes_ = pack->mapping_->bytes();
+  pack->mapped_ = std::move(*mapped);
+  pack->bytes_ = pack->mapped_->bytes();
   if (auto ok = pack->parse(); !ok) return forward_error(ok, path.string());
   return pack;
 }
@@ -112,8 +75,6 @@ Result<std::shared_ptr<const Pack>> Pack::from_bytes(std::vector<std::byte> byte
   if (auto ok = pack->parse(); !ok) return forward_error(ok);
   return pack;
 }
-
-int Pack::file() const { return mapping_ ? mapping_->file() : -1; }
 
 Result<void> Pack::parse() {
   auto header = parse_pack_header(bytes_, bytes_.size());

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "common/pack/directory.h"
+#include "common/pack/mapped_file.h"
 
 namespace selvage {
 
@@ -47,17 +48,20 @@ class Pack {
   const Directory& directory() const { return directory_; }
   std::span<const std::byte> directory_bytes() const;  ///< what the wire sends as the manifest
   std::span<const std::byte> bytes() const { return bytes_; }
-  /// The file that holds bytes(), open for reading as long as the pack is; -1 if there is none.
-  int file() const;
+  /// Somebody wrote into the file, or cut it short: what bytes() gives is not the pack that was opened. Seen
+  /// at the latest when a missing byte was read (survive_truncated_files), or by whoever says so.
+  bool is_damaged() const { return mapped_ && mapped_->is_damaged(); }
+  void mark_damaged() const {
+    if (mapped_) mapped_->mark_damaged();
+  }
   /// `ref` must come from this pack's directory. Not checked against its hash: see check_part.
   std::span<const std::byte> part(const PartRef& ref) const;
 
  private:
-  class Mapping;
   Pack();
   Result<void> parse();
 
-  std::unique_ptr<Mapping> mapping_;
+  std::unique_ptr<MappedFile> mapped_;
   std::vector<std::byte> owned_;
   std::span<const std::byte> bytes_;
   PackHeader header_;

@@ -84,17 +84,17 @@ Result<void> add_range(const RegionRange& range, std::vector<RegionId>& ids) {
   return {};
 }
 
-/// By region; those that are not selected have one, too.
-std::vector<std::uint8_t> levels_of(const Directory& directory, const Selection& selection) {
-  std::vector<std::uint8_t> level_of_region(directory.regions.size(), selection.level);
-  std::vector<bool> is_named(directory.regions.size(), false);
-  for (const auto& [region, level] : selection.levels) {
-    if (region >= directory.regions.size()) continue;
-    std::uint8_t& chosen = level_of_region[region];
-    chosen = is_named[region] ? std::min(chosen, level) : level;
-    is_named[region] = true;
-  }
-  return level_of_region;
+/// By region; the finest of several levels of one region comes first.
+std::vector<AtLevel<RegionId>> sorted_levels(const Selection& selection) {
+  std::vector<AtLevel<RegionId>> levels = selection.levels;
+  std::ranges::sort(levels, {}, [](const auto& at) { return std::pair(at.what, at.level); });
+  return levels;
+}
+
+/// The level of a region by `sorted` levels; `usual` if they don't name it.
+std::uint8_t level_in(const std::vector<AtLevel<RegionId>>& sorted, RegionId region, std::uint8_t usual) {
+  const auto found = std::ranges::lower_bound(sorted, region, {}, &AtLevel<RegionId>::what);
+  return found != sorted.end() && found->what == region ? found->level : usual;
 }
 
 /// Takes "@2" off the end of a piece, if there is such a thing.
@@ -188,37 +188,35 @@ Result<std::vector<PartId>> select_parts(const Directory& directory, const Selec
   if (!regions) return forward_error(regions);
   std::vector<bool> is_selected(directory.regions.size(), false);
   for (RegionId id : *regions) is_selected[id] = true;
-  std::vector<bool> has_bundle(directory.regions.size(), false);
-  for (RegionId id = 0; id < directory.regions.size(); ++id) {
-    has_bundle[id] = is_bundle_sent(directory, selection, id,
-                                    [&](RegionId r) { return r < is_selected.size() && is_selected[r]; });
-  }
+  const auto is_in = [&](RegionId id) { return id < is_selected.size() && is_selected[id]; };
+  const std::vector<AtLevel<RegionId>> levels = sorted_levels(selection);
 
-  const std::vector<std::uint8_t> level_of_region = levels_of(directory, selection);
+  // A large model's directory is not in the processor's cache: no more of it is looked at than must be.
+  std::vector<RegionId> looked_at;
+  looked_at.push_back(kLooseRegion);
+  const bool brings_bundles_of_others = selection.joins == Joins::All;
+  const std::vector<RegionId> real = brings_bundles_of_others ? all_regions(directory) : *regions;
+  looked_at.insert(looked_at.end(), real.begin(), real.end());
 
   std::vector<PartId> parts;
-  const RegionEntry& loose = directory.regions[kLooseRegion];
-  bool needs_loose = has_bundle[kLooseRegion];
-  for (RegionId id = 1; id < directory.regions.size(); ++id)
-    needs_loose |= has_bundle[id] && touches_loose(directory.regions[id]);
-  if (needs_loose && !loose.levels.empty()) parts.push_back({PartKind::Region, kLooseRegion, 0});
-  for (RegionId id = 0; id < directory.regions.size(); ++id) {
+  bool needs_loose = false;
+  for (RegionId id : looked_at) {
     const RegionEntry& entry = directory.regions[id];
-    if (is_selected[id]) {
-      parts.push_back({PartKind::Region, id, entry.canonical_level(level_of_region[id])});
-    }
-    if (has_bundle[id]) parts.push_back({PartKind::Bundle, id, 0});
+    if (is_selected[id])
+      parts.push_back({PartKind::Region, id, entry.canonical_level(level_in(levels, id, selection.level))});
+    if (!is_bundle_sent(directory, selection, id, is_in)) continue;
+    parts.push_back({PartKind::Bundle, id, 0});
+    needs_loose |= id == kLooseRegion || touches_loose(entry);
   }
+  const bool has_loose = !directory.regions[kLooseRegion].levels.empty();
+  if (needs_loose && has_loose) parts.insert(parts.begin(), {PartKind::Region, kLooseRegion, 0});
   return parts;
 }
 
 SelectedParts::SelectedParts(const Directory& directory, Selection selection)
     : directory_(&directory), selection_(std::move(selection)) {
   std::ranges::sort(selection_.ids);
-  // The finest of several levels of one region comes first.
-  std::ranges::sort(selection_.levels, [](const auto& a, const auto& b) {
-    return a.what != b.what ? a.what < b.what : a.level < b.level;
-  });
+  selection_.levels = sorted_levels(selection_);
 }
 
 bool SelectedParts::contains(const PartId& id) const {
@@ -247,8 +245,7 @@ bool SelectedParts::has_bundle(RegionId region) const {
 }
 
 std::uint8_t SelectedParts::level_of(RegionId region) const {
-  const auto found = std::ranges::lower_bound(selection_.levels, region, {}, &AtLevel<RegionId>::what);
-  return found != selection_.levels.end() && found->what == region ? found->level : selection_.level;
+  return level_in(selection_.levels, region, selection_.level);
 }
 
 Pages pages_for(const Selection& selection) {

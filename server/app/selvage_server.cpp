@@ -11,6 +11,8 @@
 #include <thread>
 #include <vector>
 
+#include <sys/resource.h>
+
 #include <CLI/CLI.hpp>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/io_context.hpp>
@@ -22,6 +24,7 @@
 #include "common/base/replace_file.h"
 #include "common/net/tcp_stream.h"
 #include "common/net/tls.h"
+#include "common/pack/mapped_file.h"
 #include "server/app/server_options.h"
 #include "server/operate/health_server.h"
 #include "server/operate/metrics.h"
@@ -173,6 +176,25 @@ Result<std::unique_ptr<HealthServer>> start_health(const ServerOptions& options,
   return health;
 }
 
+/// As many descriptors as the system lets us have, since every connection needs one.
+void allow_many_files() {
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
+  limit.rlim_cur = limit.rlim_max;
+  ::setrlimit(RLIMIT_NOFILE, &limit);
+}
+
+/// Connections beyond what there are descriptors for would be refused by the system, without a word.
+void check_file_limit(const ServerOptions& options) {
+  constexpr rlim_t kOthers = 100;
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur >= options.limits.connections + kOthers)
+    return;
+  log(LogLevel::Warning, "fewer descriptors than --max-connections; LimitNOFILE or ulimit -n raise them",
+      {{"descriptors", std::to_string(limit.rlim_cur)},
+       {"max_connections", std::to_string(options.limits.connections)}});
+}
+
 void run_on_threads(asio::io_context& io, unsigned threads) {
   std::vector<std::jthread> others;
   for (unsigned i = 1; i < threads; ++i) others.emplace_back([&io] { io.run(); });
@@ -198,6 +220,7 @@ Result<int> serve(const ServerOptions& options) {
   auto tokens = load_tokens(options);
   if (!tokens) return forward_error(tokens, "--tokens");
 
+  check_file_limit(options);
   const unsigned threads =
       options.threads > 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency());
   // What is used by what stands below it comes first, so that it goes last.
@@ -243,7 +266,9 @@ int main(int argc, char** argv) try {
   CLI11_PARSE(app, argc, argv);
   set_log_level(options.log_level());
   set_log_format(options.log_format);
-  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);  // of whoever reads our stdout
+  survive_truncated_files();
+  allow_many_files();
 
   const auto served = serve(options);
   if (served) return *served;

@@ -40,64 +40,50 @@ CLI::Option* add_count(CLI::App& app, const std::string& name, Count& value, con
 }
 
 void add_security(CLI::App& app, ServerOptions& options) {
+  app.option_defaults()->group(kSecurity);
   auto* cert = app.add_option("--cert", options.tls.certificate,
                               "encrypt with TLS 1.3: the certificate and those up to its authority, PEM")
-                   ->type_name("FILE")
-                   ->group(kSecurity);
-  auto* key = app.add_option("--key", options.tls.key, "the certificate's private key, PEM")
-                  ->type_name("FILE")
-                  ->group(kSecurity);
+                   ->type_name("FILE");
+  auto* key =
+      app.add_option("--key", options.tls.key, "the certificate's private key, PEM")->type_name("FILE");
   cert->needs(key);
   key->needs(cert);
   app.add_flag("--allow-plain", options.allow_plain,
-               "serve other machines without encryption, on a network that you trust")
-      ->group(kSecurity);
+               "serve other machines without encryption, on a network that you trust");
   app.add_option("--tokens", options.tokens, "who may read and publish; without it all read and none publish")
-      ->type_name("FILE")
-      ->group(kSecurity);
+      ->type_name("FILE");
 }
 
 void add_limits(CLI::App& app, ServerOptions& options) {
+  app.option_defaults()->group(kLimits);
   ServerLimits& server = options.limits;
   SessionLimits& session = server.session;
-  add_count(app, "--max-connections", server.connections, "clients at a time")->group(kLimits);
+  add_count(app, "--max-connections", server.connections, "clients at a time");
   add_count(app, "--max-connections-per-address", server.connections_per_address,
-            "clients at a time from one address")
-      ->group(kLimits);
-  add_count(app, "--max-requests", session.requests, "requests in flight for each client")->group(kLimits);
-  add_count(app, "--max-ids", session.ids_per_request, "regions named in one request")->group(kLimits);
-  add_count(app, "--max-queued-parts", session.queued_parts, "parts still to be sent to one client")
-      ->group(kLimits);
-  add_count(app, "--max-opened-models", session.opened_models, "models that a client has open at a time")
-      ->group(kLimits);
+            "clients at a time from one address");
+  add_count(app, "--max-requests", session.requests, "requests in flight for each client");
+  add_count(app, "--max-ids", session.ids_per_request, "regions named in one request");
+  add_count(app, "--max-queued-parts", session.queued_parts, "parts still to be sent to one client");
+  add_count(app, "--max-opened-models", session.opened_models, "models that a client has open at a time");
   add_bytes(app, "--max-message", session.message_bytes, "of one message from a client")
-      ->check(CLI::Range(std::uint64_t{128} << 10, std::uint64_t{kMaxPayload}))
-      ->group(kLimits);
-  add_bytes(app, "--max-queued", session.queued_bytes, "of answers without data that a client does not take")
-      ->group(kLimits);
-  add_bytes(app, "--max-rate", session.bytes_per_second, "a second for each client; 0: no limit")
-      ->group(kLimits);
-  add_seconds(app, "--handshake-timeout", session.handshake_timeout, "for a client to say hello")
-      ->group(kLimits);
-  add_seconds(app, "--idle-timeout", session.idle_timeout, "for a client that says nothing")->group(kLimits);
+      ->check(CLI::Range(std::uint64_t{128} << 10, std::uint64_t{kMaxPayload}));
+  add_bytes(app, "--max-queued", session.queued_bytes, "of answers without data that a client does not take");
+  add_bytes(app, "--max-rate", session.bytes_per_second, "a second for each client; 0: no limit");
+  add_seconds(app, "--handshake-timeout", session.handshake_timeout, "for a client to say hello");
+  add_seconds(app, "--idle-timeout", session.idle_timeout, "for a client that says nothing");
   add_seconds(app, "--write-timeout", session.write_timeout,
-              "for a client that takes nothing of what it asked for")
-      ->group(kLimits);
-  add_seconds(app, "--shutdown-grace", server.shutdown_grace, "for requests in flight at the end")
-      ->group(kLimits);
+              "for a client that takes nothing of what it asked for");
+  add_seconds(app, "--shutdown-grace", server.shutdown_grace, "for requests in flight at the end");
 }
 
 void add_publishing(CLI::App& app, ServerOptions& options) {
+  app.option_defaults()->group(kPublishing);
   PublishLimits& publish = options.publish;
-  add_bytes(app, "--max-upload", publish.upload_bytes, "of one mesh file")->group(kPublishing);
-  add_bytes(app, "--max-staged", publish.staged_bytes, "of all uploads under way or waiting to be resumed")
-      ->group(kPublishing);
-  add_seconds(app, "--staged-age", publish.staged_age, "until an upload that nobody resumes is removed")
-      ->group(kPublishing);
-  add_count(app, "--publish-queue", publish.queue, "uploads that wait while another is ingested")
-      ->group(kPublishing);
-  add_count(app, "--publish-threads", publish.threads, "that ingest; 0: one for each processor")
-      ->group(kPublishing);
+  add_bytes(app, "--max-upload", publish.upload_bytes, "of one mesh file");
+  add_bytes(app, "--max-staged", publish.staged_bytes, "of all uploads under way or waiting to be resumed");
+  add_seconds(app, "--staged-age", publish.staged_age, "until an upload that nobody resumes is removed");
+  add_count(app, "--publish-queue", publish.queue, "uploads that wait while another is ingested");
+  add_count(app, "--publish-threads", publish.threads, "that ingest; 0: one for each processor");
 }
 
 }  // namespace

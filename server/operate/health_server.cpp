@@ -78,23 +78,6 @@ asio::awaitable<void> serve(tcp::socket socket, const HealthPages& pages,
 struct HealthServer::Impl {
   explicit Impl(HealthPages given) : pages(std::move(given)) {}
 
-  Result<void> listen(const HostPort& address) {
-    error_code error;
-    tcp::resolver resolver(io);
-    const auto found =
-        resolver.resolve(address.host, std::to_string(address.port), tcp::resolver::passive, error);
-    if (error) return fail(ErrorCode::InvalidArgument, "no such host: " + address.host);
-    const tcp::endpoint endpoint = found.begin()->endpoint();
-    acceptor.open(endpoint.protocol(), error);
-    if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);
-    if (!error) acceptor.bind(endpoint, error);
-    if (!error) acceptor.listen(tcp::acceptor::max_listen_connections, error);
-    if (error) {
-      return fail(ErrorCode::Unavailable, "cannot listen on " + address.to_string() + ": " + error.message());
-    }
-    return {};
-  }
-
   asio::awaitable<void> accept_loop() {
     // Copies of it are held by connections, so its use count says how many there are.
     const auto connections = std::make_shared<int>(0);
@@ -122,16 +105,12 @@ HealthServer::~HealthServer() { impl_->io.stop(); }
 
 Result<std::unique_ptr<HealthServer>> HealthServer::start(const HostPort& address, HealthPages pages) {
   auto impl = std::make_unique<Impl>(std::move(pages));
-  if (auto ok = impl->listen(address); !ok) return forward_error(ok);
+  if (auto ok = listen_on(impl->acceptor, address); !ok) return forward_error(ok);
   asio::co_spawn(impl->io, impl->accept_loop(), asio::detached);
   impl->thread = std::jthread([&io = impl->io] { io.run(); });
   return std::unique_ptr<HealthServer>(new HealthServer(std::move(impl)));
 }
 
-HostPort HealthServer::address() const {
-  error_code ignored;
-  const tcp::endpoint local = impl_->acceptor.local_endpoint(ignored);
-  return {local.address().to_string(), local.port()};
-}
+HostPort HealthServer::address() const { return address_of(impl_->acceptor); }
 
 }  // namespace selvage

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "server/session/listener.h"
 
-#include <csignal>
-
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/experimental/awaitable_operators.hpp>
 #include <boost/asio/post.hpp>
@@ -72,37 +70,17 @@ Listener::Listener(asio::io_context& io, const SessionServices& services, const 
       strand_(asio::make_strand(io)),
       acceptor_(strand_),
       tls_(std::move(tls)),
-      changed_(strand_),
       grace_(strand_) {}
 
 Result<std::unique_ptr<Listener>> Listener::bind(asio::io_context& io, const HostPort& address,
                                                  const SessionServices& services, const ServerLimits& limits,
                                                  std::shared_ptr<TlsContext> tls) {
-  std::signal(SIGPIPE, SIG_IGN);  // what is sent from files has no other way to say that the client has gone
-  error_code error;
-  tcp::resolver resolver(io);
-  const auto found =
-      resolver.resolve(address.host, std::to_string(address.port), tcp::resolver::passive, error);
-  if (error) return fail(ErrorCode::InvalidArgument, "no such host: " + address.host);
-  const tcp::endpoint endpoint = found.begin()->endpoint();
-
   std::unique_ptr<Listener> listener(new Listener(io, services, limits, std::move(tls)));
-  tcp::acceptor& acceptor = listener->acceptor_;
-  acceptor.open(endpoint.protocol(), error);
-  if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);
-  if (!error) acceptor.bind(endpoint, error);
-  if (!error) acceptor.listen(tcp::acceptor::max_listen_connections, error);
-  if (error) {
-    return fail(ErrorCode::Unavailable, "cannot listen on " + address.to_string() + ": " + error.message());
-  }
+  if (auto listening = listen_on(listener->acceptor_, address); !listening) return forward_error(listening);
   return listener;
 }
 
-HostPort Listener::address() const {
-  error_code ignored;
-  const tcp::endpoint local = acceptor_.local_endpoint(ignored);
-  return {local.address().to_string(), local.port()};
-}
+HostPort Listener::address() const { return address_of(acceptor_); }
 
 bool Listener::is_on_loopback() const {
   error_code ignored;

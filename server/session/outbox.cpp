@@ -33,14 +33,13 @@ void Batch::add_bytes(std::span<const std::byte> bytes) {
   add_buffered(start);
 }
 
-void Batch::add_data(const FrameHeader& header, std::span<const std::byte> payload, const Pack& pack) {
+void Batch::add_data(const FrameHeader& header, std::span<const std::byte> payload) {
   const std::size_t start = buffer_.size();
   buffer_.resize(start + kFrameHeaderSize);
   write_header(header, HeaderBytes(&buffer_[start], kFrameHeaderSize));
   add_buffered(start);
   if (payload.size() <= Outbox::kCopiedData) return add_bytes(payload);
-  const auto offset = static_cast<std::uint64_t>(payload.data() - pack.bytes().data());
-  runs_.push_back({payload.data(), 0, payload.size(), pack.file(), offset});
+  runs_.push_back({payload.data(), 0, payload.size()});
   size_bytes_ += payload.size();
 }
 
@@ -50,11 +49,8 @@ void Batch::keep(const std::shared_ptr<const Pack>& pack) {
 
 const Pieces& Batch::pieces() {
   pieces_.clear();
-  for (const Run& run : runs_) {
-    Piece& piece = pieces_.emplace_back(run.outside ? run.outside : &buffer_[run.start], run.size);
-    piece.file = run.file;
-    piece.file_offset = run.file_offset;
-  }
+  for (const Run& run : runs_)
+    pieces_.emplace_back(run.outside ? run.outside : &buffer_[run.start], run.size);
   return pieces_;
 }
 
@@ -71,13 +67,13 @@ Result<void> Outbox::push_answer(Answer answer) {
     return fail(ErrorCode::InvalidArgument,
                 "request id " + std::to_string(answer.request_id) + " is still being answered");
   }
-  if (answers_.size() >= limits_.requests) {
+  if (answers_.size() >= max_answers_) {
     return fail(ErrorCode::LimitExceeded,
-                "more than " + std::to_string(limits_.requests) + " requests in flight; wait for one to end");
+                "more than " + std::to_string(max_answers_) + " requests in flight; wait for one to end");
   }
-  if (answer.items.size() > limits_.queued_parts - queued_parts_) {
-    return fail(ErrorCode::LimitExceeded, "more than " + std::to_string(limits_.queued_parts) +
-                                              " parts queued; ask for fewer at a time");
+  if (answer.items.size() > max_parts_ - queued_parts_) {
+    return fail(ErrorCode::LimitExceeded,
+                "more than " + std::to_string(max_parts_) + " parts queued; ask for fewer at a time");
   }
   queued_parts_ += answer.items.size();
   Sending sending;
@@ -103,6 +99,15 @@ bool Outbox::cancel(std::uint32_t request_id) {
   queued_parts_ -= found->answer.items.size();
   answers_.erase(found);
   return true;
+}
+
+std::uint32_t Outbox::drop_damaged() {
+  const auto found = std::ranges::find_if(
+      answers_, [](const Sending& sending) { return sending.answer.pack->is_damaged(); });
+  if (found == answers_.end()) return 0;
+  const std::uint32_t request_id = found->answer.request_id;
+  cancel(request_id);
+  return request_id;
 }
 
 Result<void> Outbox::grant(std::uint64_t bytes) {
@@ -166,7 +171,7 @@ bool Outbox::send_bytes(Sending& sending, std::span<const std::byte> bytes, Batc
     const bool ends = sending.at + size == bytes.size();
     const FrameHeader header{static_cast<std::uint32_t>(size), FrameType::Data,
                              ends ? kFlagEnd : std::uint8_t{0}, sending.answer.request_id, sending.seq++};
-    batch.add_data(header, bytes.subspan(sending.at, size), *sending.answer.pack);
+    batch.add_data(header, bytes.subspan(sending.at, size));
     credit_ -= size;
     sending.at += size;
     sending.sums.bytes += size;

@@ -60,8 +60,8 @@ class Batch {
     add_buffered(start);
   }
   void add_bytes(std::span<const std::byte> bytes);  ///< of whole frames
-  /// `payload` lies in `pack`.
-  void add_data(const FrameHeader& header, std::span<const std::byte> payload, const Pack& pack);
+  /// `payload` stays where it is.
+  void add_data(const FrameHeader& header, std::span<const std::byte> payload);
   void keep(const std::shared_ptr<const Pack>& pack);
 
  private:
@@ -69,8 +69,6 @@ class Batch {
   struct Run {
     const std::byte* outside = nullptr;
     std::size_t start = 0, size = 0;
-    int file = -1;
-    std::uint64_t file_offset = 0;
   };
   void add_buffered(std::size_t start);
 
@@ -86,21 +84,24 @@ class Outbox {
   /// So much of control frames goes into one write before data has its turn.
   static constexpr std::size_t kControlShare = 32u << 10;
   /// A part is not cut finer than this, unless it ends.
-  static constexpr std::size_t kMinChunk = 16u << 10;
+  static constexpr std::size_t kMinChunk = 2u << 10;
   /// Data up to this size is copied beside its header.
   static constexpr std::size_t kCopiedData = 512;
 
-  explicit Outbox(const SessionLimits& limits) : limits_(limits) {}
+  explicit Outbox(const SessionLimits& limits)
+      : max_answers_(limits.requests), max_parts_(limits.queued_parts), max_control_(limits.queued_bytes) {}
 
   /// A whole frame (see to_frame). Always accepted: the reader stops reading while full().
   void push_control(std::vector<std::byte> frame);
-  bool full() const { return control_bytes_ >= limits_.queued_bytes; }
+  bool full() const { return control_bytes_ >= max_control_; }
 
   /// LimitExceeded when too many requests or parts are queued, InvalidArgument when the request id is in use.
   Result<void> push_answer(Answer answer);
 
   /// Drops what is left of that answer; false if there is none (any more).
   bool cancel(std::uint32_t request_id);
+  /// Drops an answer whose pack has been damaged since, and gives its request id; 0 if there is none.
+  std::uint32_t drop_damaged();
   /// Changes the urgency of that answer, if it is still here.
   void reprioritise(std::uint32_t request_id, std::uint8_t urgency);
   void drop_answers() {
@@ -141,7 +142,7 @@ class Outbox {
   bool send_manifest(Sending& sending, Batch& batch);
   bool send_item(Sending& sending, Batch& batch);
 
-  const SessionLimits limits_;
+  const std::uint32_t max_answers_, max_parts_, max_control_;
   std::list<std::vector<std::byte>> control_;
   std::size_t control_bytes_ = 0;
   Answers answers_;  ///< among those of one urgency, the first one's turn is next

@@ -42,11 +42,7 @@ Session::Session(std::unique_ptr<ByteStream> stream, const SessionServices& serv
       incoming_(limits.message_bytes, kReadSize),
       outbox_(limits),
       rate_(limits.bytes_per_second, kBurst, RateLimit::Clock::now()),
-      rate_pause_(stream_->executor()),
-      wake_reader_(stream_->executor()),
-      reading_(stream_->executor()),
-      writing_(stream_->executor()),
-      writer_ended_(stream_->executor()) {
+      deadline_(stream_->executor()) {
   ++services_.counters.sessions;
 }
 
@@ -55,7 +51,7 @@ Session::~Session() { --services_.counters.sessions; }
 asio::awaitable<void> Session::run() {
   const LifelineHold hold(*this);
   watch_deadlines();
-  reading_.expires_after(limits_.handshake_timeout);
+  set_deadline(read_by_, Deadline::Clock::now() + limits_.handshake_timeout);
   try {
     co_await read_loop();
   } catch (...) {
@@ -64,8 +60,7 @@ asio::awaitable<void> Session::run() {
   finish();
   while (writers_ > 0) co_await writer_ended_.wait();
   ended_ = true;
-  reading_.stop();
-  writing_.stop();
+  deadline_.stop();
   stream_->close();
   if (thrown_) std::rethrow_exception(thrown_);
 }
@@ -73,14 +68,25 @@ asio::awaitable<void> Session::run() {
 /// By calls, not by coroutines and operators that join them: those would hold several times as much memory
 /// for an idle connection as all the rest.
 void Session::watch_deadlines() {
-  reading_.on_expiry([this] {
-    if (!reason_) reason_ = Error{ErrorCode::Timeout, "nothing heard from the client for too long"};
-    finish();
-  });
-  writing_.on_expiry([this] {
+  deadline_.on_expiry([this] { on_deadline(); });
+}
+
+void Session::set_deadline(Deadline::Clock::time_point& which, Deadline::Clock::time_point at) {
+  which = at;
+  deadline_.expires_at(std::min(read_by_, write_by_));
+}
+
+void Session::on_deadline() {
+  const bool is_write = write_by_ <= read_by_;
+  set_deadline(is_write ? write_by_ : read_by_, kNever);
+  if (is_write) {
     if (!reason_) reason_ = Error{ErrorCode::Timeout, "the client does not take what it asked for"};
     stream_->close();
-  });
+  } else {
+    if (!reason_) reason_ = Error{ErrorCode::Timeout, "nothing heard from the client for too long"};
+    if (!is_ready_) return stream_->close();  // in the middle of a handshake nothing can be said
+    finish();
+  }
 }
 
 /// Nothing more is read: tells the client why, and lets the writer end the connection.
@@ -110,16 +116,21 @@ asio::awaitable<void> Session::read_loop() {
     stream_->close();
     co_return;
   }
+  is_ready_ = true;
   for (;;) {
     while (outbox_.full() && !closing_) co_await wake_reader_.wait();
     if (closing_) co_return;
+    if (incoming_.between_frames()) {
+      incoming_.release();
+      (void)co_await stream_->wait_to_read();  // what is wrong, the read says
+    }
     Result<std::optional<Frame>> frame = co_await read_frame(*stream_, incoming_);
     if (frame && !frame->has_value()) co_return;  // the client has left
     Result<void> handled;
     if (frame) {
-      reading_.clear();  // what comes is our time, not the client's
+      set_deadline(read_by_, kNever);  // what comes is our time, not the client's
       handled = co_await handle(**frame);
-      reading_.expires_after(limits_.idle_timeout);
+      set_deadline(read_by_, Deadline::Clock::now() + limits_.idle_timeout);
     } else {
       handled = forward_error(frame);
     }
@@ -320,7 +331,7 @@ void Session::status(std::uint32_t request_id) { send(answer_status(services_, d
 
 std::shared_ptr<const Pack> Session::opened_pack(const std::string& name) const {
   const auto found = std::ranges::find(opened_, name, &OpenedModel::name);
-  return found == opened_.end() ? nullptr : found->pack;
+  return found == opened_.end() || found->pack->is_damaged() ? nullptr : found->pack;
 }
 
 /// The pack as the store has it now; remembered for the gets to come.
@@ -353,6 +364,17 @@ void Session::send_answer(Answer answer) {
   wake_writer();
 }
 
+/// What is left of answers from packs that were overwritten since would be nonsense.
+void Session::refuse_damaged() {
+  for (std::uint32_t id = outbox_.drop_damaged(); id != 0; id = outbox_.drop_damaged()) {
+    send_error(
+        Error{ErrorCode::BadStream,
+              "the model's pack was overwritten in place while it was served; packs are to be replaced by "
+              "renaming"},
+        id);
+  }
+}
+
 /// There is a writer only while there is something to write: an idle connection does without.
 void Session::wake_writer() {
   if (is_writing_) return rate_pause_.notify();
@@ -375,6 +397,14 @@ asio::awaitable<void> Session::write_loop() {
   Batch batch;
   bool is_broken = false;
   while (!is_broken) {
+    if (!outbox_.idle()) {
+      set_deadline(write_by_, Deadline::Clock::now() + limits_.write_timeout);
+      const Result<void> is_time = co_await stream_->wait_to_write();
+      set_deadline(write_by_, kNever);
+      is_broken = !is_time;
+      if (is_broken) continue;
+      refuse_damaged();
+    }
     const auto now = RateLimit::Clock::now();
     outbox_.take(batch, std::min<std::uint64_t>(stream_->write_size(), rate_.available(now)));
     if (!batch.empty()) {
@@ -397,9 +427,9 @@ asio::awaitable<void> Session::write_loop() {
 
 asio::awaitable<Result<void>> Session::write(Batch& batch) {
   rate_.spend(batch.size_bytes());
-  writing_.expires_after(limits_.write_timeout);
+  set_deadline(write_by_, Deadline::Clock::now() + limits_.write_timeout);
   Result<void> written = co_await stream_->write(batch.pieces());
-  writing_.clear();
+  set_deadline(write_by_, kNever);
   if (written) services_.counters.bytes_sent += batch.size_bytes();
   co_return written;
 }

@@ -30,7 +30,8 @@ namespace selvage {
 /// Single-strand (the stream's), workers aside.
 class Session {
  public:
-  /// The store is asked on the services' workers, so that a disk never holds up the strand.
+  /// The store is asked on the services' workers, so that a disk never holds up the strand. `services` and
+  /// `limits` outlive the session.
   Session(std::unique_ptr<ByteStream> stream, const SessionServices& services, const SessionLimits& limits);
   ~Session();
 
@@ -49,7 +50,11 @@ class Session {
   const std::optional<Error>& reason() const { return reason_; }
 
  private:
+  static constexpr auto kNever = Deadline::Clock::time_point::max();
+
   void watch_deadlines();
+  void on_deadline();
+  void set_deadline(Deadline::Clock::time_point& which, Deadline::Clock::time_point at);
   void finish();
   void wake_writer();
   asio::awaitable<void> read_loop();
@@ -107,6 +112,7 @@ class Session {
   }
   void send_error(const Error& error, std::uint32_t request_id);
   void send_answer(Answer answer);
+  void refuse_damaged();
 
   struct OpenedModel {
     std::string name;
@@ -114,8 +120,8 @@ class Session {
   };
 
   std::unique_ptr<ByteStream> stream_;
-  const SessionServices services_;
-  const SessionLimits limits_;
+  const SessionServices& services_;
+  const SessionLimits& limits_;
   const std::string peer_;
   const std::uint64_t number_;
   Access access_;  ///< since the Hello
@@ -125,8 +131,10 @@ class Session {
   RateLimit rate_;
   Signal rate_pause_;   ///< ends early when there is something new to send
   Signal wake_reader_;  ///< the outbox has room again
-  Deadline reading_;    ///< for the next whole frame
-  Deadline writing_;    ///< for the write under way
+  /// One timer for two deadlines: idle sessions have nothing to spare.
+  Deadline deadline_;
+  Deadline::Clock::time_point read_by_ = kNever;   ///< the next whole frame
+  Deadline::Clock::time_point write_by_ = kNever;  ///< the write under way
 
   std::vector<OpenedModel>
       opened_;  ///< a get finds the pack that this client opened, whatever the store has since
@@ -138,6 +146,7 @@ class Session {
   std::optional<Uploading> upload_;
   std::uint32_t last_upload_ = 0;  ///< the request whose Data may still arrive; 0: none
   std::shared_ptr<Lifeline> lifeline_;
+  bool is_ready_ = false;  ///< the stream's own handshake is done
   bool greeted_ = false;
   bool draining_ = false;  ///< no new requests; the writer ends when all is sent
   bool closing_ = false;   ///< the writer sends what control frames are left, and ends

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <set>
 #include <sys/stat.h>
 
 #include "common/base/replace_file.h"
@@ -74,7 +75,11 @@ Result<void> PackStore::refresh(const std::string& name) {
   {
     const std::lock_guard lock(mutex_);
     const auto known = opened_.find(name);
-    if (known != opened_.end() && known->second.stamp == *stamp) return {};
+    if (known != opened_.end()) {
+      const Opened& opened = known->second;
+      if (opened.stamp == *stamp && !(opened.pack && (*opened.pack)->is_damaged())) return {};
+      if (opened.pack && opened.stamp.inode == stamp->inode) (*opened.pack)->mark_damaged();
+    }
   }
   // Outside the lock: a large pack must not hold up the others. Two callers may open the same file; either
   // will do.
@@ -129,13 +134,13 @@ bool PackStore::must_look() {
 
 /// Reads the folder.
 Result<void> PackStore::look() {
-  std::map<std::string, bool, std::less<>> found;
+  std::set<std::string, std::less<>> found;
   std::error_code error;
   for (std::filesystem::directory_iterator at(folder_, error), end; !error && at != end;
        at.increment(error)) {
     const std::string name = at->path().stem().string();
     if (at->path().extension() != kPackExtension || !is_model_name(name)) continue;
-    if (refresh(name)) found[name] = true;  // else it went away just now, or is no file
+    if (refresh(name)) found.insert(name);  // else it went away just now, or is no file
   }
   if (error) {
     const std::lock_guard lock(mutex_);

@@ -4,8 +4,8 @@
 // that appear, change or go are noticed without anyone telling. A damaged pack is an error with its reason
 // for whoever opens it, and no concern of the others.
 //
-// Packs must be replaced by renaming a whole file over the old one: a mapped file that is truncated in place
-// would take the process down. A replaced pack lives on for those who have it open.
+// Packs must be replaced by renaming a whole file over the old one: then the old one lives on for those who
+// have it open. One that is overwritten in place is marked as damaged for them.
 #pragma once
 
 #include <chrono>

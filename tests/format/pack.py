@@ -4,7 +4,7 @@ import hashlib
 
 from coding import Bytes, require
 
-REGIONS_A_PAGE = 256
+REGIONS_A_PAGE = 64
 
 
 class Record:

@@ -32,7 +32,7 @@ void run(Work work) {
 
 TEST(Signal, IsNotLostWhenItComesBeforeTheWait) {
   run([]() -> asio::awaitable<void> {
-    Signal signal(co_await asio::this_coro::executor);
+    Signal signal;
     signal.notify();
     signal.notify();
     co_await signal.wait();

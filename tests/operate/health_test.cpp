@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // What those who look after a server see of it.
+#include <thread>
+
 #include <gtest/gtest.h>
 
 #include "client/session/blocking_client.h"
@@ -51,6 +53,27 @@ TEST(Health, GarbageEndsItsConnectionOnly) {
   EXPECT_EQ(http_exchange(server->address(), std::string(100, '\0') + "\r\n\r\n"), "");
   EXPECT_EQ(http_exchange(server->address(), "GET /" + std::string(20'000, 'x') + " HTTP/1.1\r\n\r\n"), "");
   EXPECT_TRUE(http_get(server->address(), "/healthz").starts_with("HTTP/1.1 200 "));
+}
+
+TEST(Health, BoundsItsConnections) {
+  const auto server = start({[] { return ""; }, [] { return Result<void>(); }});
+  const HostPort address = server->address();
+  const auto answers = [&] {
+    try {
+      return http_get(address, "/healthz").starts_with("HTTP/1.1 200 ");
+    } catch (const boost::system::system_error&) {
+      return false;  // it has hung up on us
+    }
+  };
+  asio::io_context io;
+  std::vector<asio::ip::tcp::socket> silent;
+  for (int i = 0; i < 32; ++i) {
+    silent.emplace_back(io);
+    silent.back().connect({asio::ip::make_address(address.host), address.port});
+  }
+  EXPECT_FALSE(answers());
+  silent.clear();
+  while (!answers()) std::this_thread::yield();  // until it has noticed
 }
 
 TEST(Metrics, CountWhatHappened) {

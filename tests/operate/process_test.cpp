@@ -6,6 +6,8 @@
 #include <set>
 #include <thread>
 
+#include <sys/resource.h>
+
 #include <gtest/gtest.h>
 
 #include "client/session/blocking_client.h"
@@ -234,6 +236,54 @@ TEST_F(Process, KillDuringPublishLosesNothingThatWasAcknowledged) {
   EXPECT_EQ((*pack)->id(), published->pack_id);
   const std::filesystem::directory_iterator staged(store() / ".uploads"), end;
   EXPECT_EQ(std::distance(staged, end), 0);
+}
+
+/// cp over a served pack cuts it short and writes it anew.
+TEST_F(Process, SurvivesAPackThatIsOverwrittenInPlace) {
+  const auto bytes = fake_pack_bytes(200, 60'000);
+  const auto path = store() / "row.selvage";
+  const auto write = [&](std::size_t size) {
+    std::ofstream(path, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(size));
+  };
+  write(bytes.size());
+  const auto server = start_on_store();
+  auto client = BlockingClient::connect(server->address()).value();
+  const auto manifest = client.open("row").value();
+  const GetRequest request{manifest, {.kind = Selection::Kind::All}};
+  bool is_first = true;
+  const auto cut = client.get(request, [&](ReceivedPart) -> Result<void> {
+    if (std::exchange(is_first, false)) write(20'000);
+    return {};
+  });
+  ASSERT_FALSE(cut);
+  EXPECT_EQ(cut.error().code, ErrorCode::BadStream) << cut.error().message;
+
+  auto other = BlockingClient::connect(server->address()).value();
+  const auto models = other.list();
+  ASSERT_TRUE(models) << models.error().message;
+  EXPECT_NE(models->at(0).problem, "");
+  write(bytes.size());
+  const auto whole = other.open("row");
+  ASSERT_TRUE(whole) << whole.error().message;
+  EXPECT_TRUE(other.get({*whole, {.kind = Selection::Kind::All}}, ignore_part));
+  EXPECT_EQ(server->end(SIGTERM), 0);
+}
+
+TEST_F(Process, HasAsManyDescriptorsAsItMay) {
+  rlimit before{}, few{};
+  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+  few = {40, before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &few), 0);
+  const auto server = start_on_store();
+  server->address();
+  ::setrlimit(RLIMIT_NOFILE, &before);
+  std::vector<BlockingClient> clients;
+  for (int i = 0; i < 60; ++i) {
+    auto client = BlockingClient::connect(server->address());
+    ASSERT_TRUE(client) << client.error().message;
+    clients.push_back(std::move(*client));
+  }
 }
 
 /// What a client got before the server was killed need not be fetched again.

@@ -60,23 +60,23 @@ TEST(Selection, NamesARegionThatIsNotThere) {
 PartId page(std::uint32_t number) { return {PartKind::Page, number, 0}; }
 
 TEST(Selection, PagesComeBeforeWhatTheyListAndWhatItsBundleTouches) {
-  const auto pack = Pack::from_bytes(fake_pack_bytes(600)).value();
+  const auto pack = Pack::from_bytes(fake_pack_bytes(150)).value();
   const auto with = [&](Pages pages) {
-    return with_pages(pack->directory(), {{PartKind::Region, 10, 0}, bundle(512)}, pages);
+    return with_pages(pack->directory(), {{PartKind::Region, 10, 0}, bundle(128)}, pages);
   };
-  EXPECT_EQ(with(Pages::None), (std::vector<PartId>{{PartKind::Region, 10, 0}, bundle(512)}));
-  const std::vector<PartId> needed{page(0), {PartKind::Region, 10, 0}, page(2), page(1), bundle(512)};
+  EXPECT_EQ(with(Pages::None), (std::vector<PartId>{{PartKind::Region, 10, 0}, bundle(128)}));
+  const std::vector<PartId> needed{page(0), {PartKind::Region, 10, 0}, page(2), page(1), bundle(128)};
   EXPECT_EQ(with(Pages::Needed), needed);
   EXPECT_EQ(with(Pages::All), needed);
   EXPECT_EQ(with_pages(pack->directory(), {}, Pages::All), (std::vector<PartId>{page(0), page(1), page(2)}));
 }
 
 TEST(Selection, NeedsThePagesOfWhatIsSelected) {
-  const auto pack = Pack::from_bytes(fake_pack_bytes(600)).value();
+  const auto pack = Pack::from_bytes(fake_pack_bytes(150)).value();
   const auto bytes = pack->directory_bytes();
   Directory directory = parse_summary(bytes.first(pack->header().summary_size), bytes.size()).value();
-  const Selection some{.kind = Selection::Kind::Ids, .ids = {300}, .joins = Joins::None};
-  const Selection box{.kind = Selection::Kind::Box, .box = {{300, 0, 0}, {301, 1, 1}}, .joins = Joins::None};
+  const Selection some{.kind = Selection::Kind::Ids, .ids = {70}, .joins = Joins::None};
+  const Selection box{.kind = Selection::Kind::Box, .box = {{70, 0, 0}, {71, 1, 1}}, .joins = Joins::None};
   for (const Selection& selection : {some, box}) {
     const auto early = select_regions(directory, selection);
     ASSERT_FALSE(early);
@@ -84,8 +84,8 @@ TEST(Selection, NeedsThePagesOfWhatIsSelected) {
     EXPECT_NE(early.error().message.find("page 1 "), std::string::npos) << early.error().message;
   }
   ASSERT_TRUE(read_page(directory, 1, pack->part(pack->directory().pages[1].part)));
-  EXPECT_EQ(select_regions(directory, some).value(), (std::vector<RegionId>{300}));
-  EXPECT_EQ(select_regions(directory, box).value(), (std::vector<RegionId>{299, 300, 301}));
+  EXPECT_EQ(select_regions(directory, some).value(), (std::vector<RegionId>{70}));
+  EXPECT_EQ(select_regions(directory, box).value(), (std::vector<RegionId>{69, 70, 71}));
   EXPECT_FALSE(select_regions(directory, {}));
 }
 

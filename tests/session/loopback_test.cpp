@@ -204,6 +204,24 @@ TEST(Loopback, ShutdownLetsRequestsFinish) {
   EXPECT_EQ(after.error().code, ErrorCode::Unavailable);
 }
 
+TEST(Loopback, TheGraceForRequestsInFlightEnds) {
+  ServerLimits limits;
+  limits.shutdown_grace = std::chrono::milliseconds(20);
+  TestServer server(limits);
+  server.folder().put("row.selvage", fake_pack_bytes(50, 100'000));
+  BlockingClient client = connect(server, {.window_bytes = kMinInitialCredit});
+  const auto manifest = client.open("row").value();
+  std::vector<ReceivedPart> hoarded;  // so no more is granted, and the request cannot end
+  const auto stats =
+      client.get({manifest, {.kind = Selection::Kind::All}}, [&](ReceivedPart part) -> Result<void> {
+        server.shut_down();
+        hoarded.push_back(std::move(part));
+        return {};
+      });
+  ASSERT_FALSE(stats);
+  EXPECT_EQ(stats.error().code, ErrorCode::Unavailable);
+}
+
 TEST(Loopback, ManyClientsAtOnce) {
   TestServer server;
   server.folder().put("row.selvage", fake_pack_bytes(100, 3000));

@@ -261,7 +261,7 @@ TEST(RequestHandler, SendsTheDirectorysPagesThatAClientLacks) {
   const auto pack = fake_pack(1000, 10);
   GetParts request;
   request.model = "row";
-  request.selection = {.kind = Selection::Kind::Ids, .ids = {300, 301}};
+  request.selection = {.kind = Selection::Kind::Ids, .ids = {70, 71}};
   request.pages = Pages::Needed;
   const auto first = answer_get(1, request, pack, {});
   ASSERT_TRUE(first);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // The server's session against clients of every kind, frame by frame.
+#include <map>
+
+#include <boost/asio/detached.hpp>
 #include <gtest/gtest.h>
 
 #include "tests/session/session_harness.h"
@@ -59,7 +62,7 @@ Work expect_whole_answer(RawPeer& peer, std::uint32_t request_id, std::uint32_t 
     const auto frame = co_await peer.receive_control();
     EXPECT_TRUE(frame);
     if (!frame) co_return;
-    if (frame->is(FrameType::PartBegin)) continue;
+    if (frame->is(FrameType::PartBegin) || frame->is(FrameType::ManifestBegin)) continue;
     EXPECT_TRUE(frame->is(FrameType::RequestEnd)) << to_string(frame->header.type);
     EXPECT_EQ(frame->header.request_id, request_id);
     if (frame->is(FrameType::RequestEnd)) {
@@ -234,6 +237,125 @@ TEST(ServerSession, AnswersPingsWhileDataWaitsForCredit) {
     client.close();
   };
   harness.run(work(peer));
+}
+
+/// Receives Data until `total` bytes of it have come; how much of that for each request.
+asio::awaitable<std::map<std::uint32_t, std::size_t>> receive_data(RawPeer& peer, std::size_t total) {
+  std::map<std::uint32_t, std::size_t> data;
+  for (std::size_t sum = 0; sum < total;) {
+    const std::optional<RawPeer::Received> frame = co_await peer.receive();
+    EXPECT_TRUE(frame);
+    if (!frame) break;
+    if (!frame->is(FrameType::Data)) continue;
+    data[frame->header.request_id] += frame->payload.size();
+    sum += frame->payload.size();
+  }
+  co_return data;
+}
+
+TEST(ServerSession, RequestsOfEqualUrgencyShareTheConnection) {
+  SessionHarness harness;
+  harness.folder().put("row.selvage", fake_pack_bytes(20, 1'000'000));
+  RawPeer peer(harness.connect());
+  const auto work = [](RawPeer& client) -> Work {
+    co_await greet(client);
+    for (std::uint32_t id = 1; id <= 3; ++id) co_await client.send(get_all(), id);
+    co_await client.send(Ping{}, 9);
+    std::optional<RawPeer::Received> frame = co_await client.receive_control();
+    while (frame && !frame->is(FrameType::Pong)) frame = co_await client.receive_control();
+    // All are under way; what went before is not counted.
+    const std::map<std::uint32_t, std::size_t> data = co_await receive_data(client, 3'000'000);
+    for (std::uint32_t id = 1; id <= 3; ++id) {
+      EXPECT_NEAR(static_cast<double>(data.at(id)), 1e6, 3.0 * ByteStream::kUsualWrite) << id;
+    }
+    client.close();
+  };
+  harness.run(work(peer));
+}
+
+TEST(ServerSession, ClientsShareTheServer) {
+  SessionHarness harness;
+  harness.folder().put("row.selvage", fake_pack_bytes(40, 1'000'000));
+  RawPeer modest(harness.connect()), greedy(harness.connect());
+  std::size_t taken = 0;
+  const auto take_all = [](RawPeer& client, std::size_t& bytes) -> Work {
+    co_await greet(client);
+    for (std::uint32_t id = 1; id <= 20; ++id) co_await client.send(get_all(), id);
+    while (const std::optional<RawPeer::Received> frame = co_await client.receive()) {
+      if (frame->is(FrameType::Data)) bytes += frame->payload.size();
+    }
+  };
+  const auto take_some = [](RawPeer& client, RawPeer& other, std::size_t& bytes) -> Work {
+    co_await greet(client);
+    co_await client.send(get_all(), 1);
+    (void)co_await receive_data(client, 1'000'000);  // the other has begun, too
+    const std::size_t before = bytes;
+    (void)co_await receive_data(client, 10'000'000);
+    EXPECT_GT(bytes - before, 1'000'000u);
+    EXPECT_LT(bytes - before, 20'000'000u) << "twenty requests count as much as one";
+    client.close();
+    other.close();
+  };
+  asio::co_spawn(harness.executor(), take_all(greedy, taken), asio::detached);
+  harness.run(take_some(modest, greedy, taken));
+}
+
+TEST(ServerSession, ForgetsTheModelThatWasOpenedFirst) {
+  const auto old_row = fake_pack_bytes(3), new_row = fake_pack_bytes(4);
+  for (const std::uint32_t most : {1u, 2u}) {
+    SessionHarness harness({.opened_models = most});
+    harness.folder().put("row.selvage", old_row);
+    harness.folder().put("other.selvage", old_row);
+    RawPeer peer(harness.connect());
+    const auto work = [](RawPeer& client, const TempFolder& folder, Bytes fresh, Hash id,
+                         bool forgets) -> Work {
+      co_await greet(client);
+      OpenModel row{"row"}, other{"other"};
+      co_await client.send(std::move(row), 1);
+      co_await expect_whole_answer(client, 1, 0);
+      co_await client.send(std::move(other), 2);
+      co_await expect_whole_answer(client, 2, 0);
+      folder.put("row.selvage", fresh);
+      GetParts get = get_all();
+      get.pack_id = id;
+      co_await client.send(get, 3);
+      if (forgets) {
+        co_await expect_refused(client, 3, ErrorCode::ModelChanged);
+      } else {
+        co_await expect_whole_answer(client, 3, 5);
+      }
+      client.close();
+    };
+    const Hash id = Pack::from_bytes(old_row).value()->id();
+    harness.run(work(peer, harness.folder(), new_row, id, most == 1));
+  }
+}
+
+TEST(ServerSession, APackThatIsCutShortEndsTheRequestAlone) {
+  survive_truncated_files();
+  SessionHarness harness;
+  harness.folder().put("row.selvage", fake_pack_bytes(10, 100'000));
+  harness.folder().put("other.selvage", fake_pack_bytes(3));
+  RawPeer peer(harness.connect());
+  const auto work = [](RawPeer& client, const TempFolder& folder) -> Work {
+    co_await greet(client, kMinInitialCredit);
+    co_await client.send(get_all(), 1);
+    std::optional<RawPeer::Received> frame = co_await client.receive_control();
+    EXPECT_TRUE(frame && frame->is(FrameType::PartBegin));
+    std::filesystem::resize_file(folder.path() / "row.selvage", 5000);
+    Credit credit{10'000'000};
+    co_await client.send(credit);
+    while (frame && frame->is(FrameType::PartBegin)) frame = co_await client.receive_control();
+    EXPECT_TRUE(frame && frame->is(FrameType::Error));
+    EXPECT_EQ(frame->as<ErrorMessage>().error.code, ErrorCode::BadStream);
+    co_await client.send(get_all(), 2);
+    co_await expect_refused(client, 2, ErrorCode::BadStream);
+    OpenModel other{"other"};
+    co_await client.send(std::move(other), 3);
+    co_await expect_whole_answer(client, 3, 0);
+    client.close();
+  };
+  harness.run(work(peer, harness.folder()));
 }
 
 // ---- what ends a connection

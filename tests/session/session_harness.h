@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// One server session in memory, on the test's own thread: nothing sleeps, nothing listens.
+// Server sessions in memory, on the test's own thread: nothing sleeps, nothing listens.
 #pragma once
 
 #include <chrono>
 #include <memory>
 #include <stdexcept>
+#include <vector>
 
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/io_context.hpp>
@@ -30,9 +31,9 @@ class SessionHarness {
   /// The other end of a connection whose near end a session serves (start it before run()).
   std::unique_ptr<ByteStream> connect() {
     auto [near_end, far_end] = make_memory_streams(executor(), options_);
-    session_ = std::make_unique<Session>(std::move(near_end), services_, limits_);
-    asio::co_spawn(executor(), session_->run(), [this](std::exception_ptr thrown) {
-      session_ended_ = true;
+    sessions_.push_back(std::make_unique<Session>(std::move(near_end), services_, limits_));
+    asio::co_spawn(executor(), session().run(), [this](std::exception_ptr thrown) {
+      ++sessions_ended_;
       if (thrown) thrown_ = thrown;
     });
     return std::move(far_end);
@@ -49,10 +50,10 @@ class SessionHarness {
     io_.run_for(std::chrono::seconds(60));
     if (thrown_) std::rethrow_exception(thrown_);
     if (!done) throw std::runtime_error("the test's coroutine waits forever");
-    if (session_ && !session_ended_) throw std::runtime_error("the server's session does not end");
+    if (sessions_ended_ < sessions_.size()) throw std::runtime_error("the server's session does not end");
   }
 
-  Session& session() { return *session_; }
+  Session& session() { return *sessions_.back(); }  ///< of the last connection
   AccessControl& access() { return access_; }
 
  private:
@@ -64,8 +65,8 @@ class SessionHarness {
   AccessControl access_;
   ServerCounters counters_;
   const SessionServices services_{*store_, io_.get_executor(), access_, counters_};
-  std::unique_ptr<Session> session_;
-  bool session_ended_ = false;
+  std::vector<std::unique_ptr<Session>> sessions_;
+  std::size_t sessions_ended_ = 0;
   std::exception_ptr thrown_;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "server/store/pack_store.h"
 
+#include <fstream>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -41,6 +42,17 @@ TEST_F(Store, NoticesPacksThatAppearChangeAndGo) {
   std::filesystem::remove(folder.path() / "row.selvage");
   EXPECT_EQ(store->open("row").error().code, ErrorCode::NotFound);
   EXPECT_TRUE(store->list()->empty());
+}
+
+TEST_F(Store, APackThatIsOverwrittenInPlaceIsDamagedForWhoHasItOpen) {
+  folder.put("row.selvage", fake_pack_bytes(7));
+  const auto old = store->open("row").value();
+  const auto fresh = fake_pack_bytes(8);
+  std::ofstream(folder.path() / "row.selvage", std::ios::binary)
+      .write(reinterpret_cast<const char*>(fresh.data()), static_cast<std::streamsize>(fresh.size()));
+  EXPECT_EQ(store->open("row").value()->directory().real_region_count(), 8u);
+  EXPECT_TRUE(old->is_damaged());
+  EXPECT_FALSE(store->open("row").value()->is_damaged());
 }
 
 TEST_F(Store, ADamagedPackDisturbsNobody) {

@@ -11,8 +11,7 @@ namespace {
 
 /// One direction.
 struct Pipe {
-  Pipe(asio::any_io_executor executor, std::size_t most)
-      : capacity(most), readable(executor), writable(executor) {}
+  explicit Pipe(std::size_t most) : capacity(most) {}
 
   void close() {
     closed = true;
@@ -91,8 +90,8 @@ class MemoryStream final : public ByteStream {
 }  // namespace
 
 StreamPair make_memory_streams(asio::any_io_executor executor, MemoryStreamOptions options) {
-  const auto there = std::make_shared<Pipe>(executor, options.capacity);
-  const auto back = std::make_shared<Pipe>(executor, options.capacity);
+  const auto there = std::make_shared<Pipe>(options.capacity);
+  const auto back = std::make_shared<Pipe>(options.capacity);
   return {std::make_unique<MemoryStream>(executor, back, there, options.first_fault, options.read_limit),
           std::make_unique<MemoryStream>(executor, there, back, options.second_fault, options.read_limit)};
 }

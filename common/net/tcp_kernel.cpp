@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#include "common/net/tcp_kernel.h"
+
+#include <linux/tcp.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+namespace selvage {
+
+std::optional<TcpFigures> tcp_figures(int socket) {
+  tcp_info info{};  // an older kernel fills less of it
+  socklen_t size = sizeof info;
+  if (::getsockopt(socket, IPPROTO_TCP, TCP_INFO, &info, &size) != 0) return std::nullopt;
+  return TcpFigures{info.tcpi_rtt, info.tcpi_delivery_rate};
+}
+
+void limit_unsent(int socket, std::uint32_t bytes) {
+  const int value = static_cast<int>(bytes);
+  ::setsockopt(socket, IPPROTO_TCP, TCP_NOTSENT_LOWAT, &value, sizeof value);
+}
+
+}  // namespace selvage
