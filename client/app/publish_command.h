@@ -5,6 +5,7 @@
 #include <string>
 
 #include "client/app/server_options.h"
+#include "common/net/publish_cut.h"
 
 namespace selvage {
 
@@ -17,6 +18,7 @@ struct PublishCommand {
   int bits = 14;
   bool lossless = false;
   bool replace = false;
+  PublishCut cut;
   int retries = 8;  ///< connections lost in a row
   bool json = false;
   ServerOptions connection;
