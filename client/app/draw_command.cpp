@@ -8,6 +8,7 @@
 #include "client/app/level_pictures.h"
 #include "client/app/model_source.h"
 #include "common/base/progress_line.h"
+#include "common/base/stop_on_interrupt.h"
 #include "common/render/palette.h"
 #include "common/render/png.h"
 #include "common/render/sheet.h"
@@ -73,10 +74,11 @@ Result<void> write_sheet(const DrawCommand& command, const std::vector<Panel>& p
 }
 
 Result<void> run_levels(const DrawCommand& command) {
-  auto model = open_model(command.source, command.options);
+  const StopOnInterrupt interrupt;
+  auto model = open_model(command.source, command.options, interrupt.token());
   if (!model) return forward_error(model);
   const auto load = [&](const Selection& selection) -> Result<StitchedMesh> {
-    auto loaded = load_selection(*model, selection);
+    auto loaded = load_selection(*model, selection, interrupt.token());
     if (!loaded) return forward_error(loaded);
     return std::move(loaded->fetched.mesh);
   };
@@ -92,7 +94,8 @@ Result<void> run_levels(const DrawCommand& command) {
 
 Result<void> run(const DrawCommand& command) {
   if (command.levels) return run_levels(command);
-  auto model = load_model(command.source, command.selection, command.options);
+  const StopOnInterrupt interrupt;
+  auto model = load_model(command.source, command.selection, command.options, interrupt.token());
   if (!model) return forward_error(model);
   ProgressLine line;
   line.show("drawing");

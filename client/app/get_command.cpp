@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "client/app/model_source.h"
+#include "common/base/stop_on_interrupt.h"
 #include "common/mesh_io/write_mesh.h"
 
 namespace selvage {
@@ -58,7 +59,8 @@ void print_text(const GetCommand& command, const LoadedModel& model) {
 Result<void> run(const GetCommand& command) {
   // Before anything is fetched: what would fail at the end anyway.
   if (auto ok = check_writable(command.output); !ok) return ok;
-  auto model = load_model(command.source, command.selection, command.options);
+  const StopOnInterrupt interrupt;
+  auto model = load_model(command.source, command.selection, command.options, interrupt.token());
   if (!model) return forward_error(model);
   auto ok = write_mesh(command.output, model->fetched.mesh.soup, {.comment = provenance(model->directory)});
   if (!ok) return ok;

@@ -33,13 +33,13 @@ void count_levels(const std::vector<PartId>& parts, LoadedModel& model) {
 
 }  // namespace
 
-Result<Model> open_model(const std::string& source, const SourceOptions& options) {
+Result<Model> open_model(const std::string& source, const SourceOptions& options, std::stop_token stop) {
   auto model_options = options.model_options();
   if (!model_options) return forward_error(model_options);
-  return Model::open(source, std::move(*model_options));
+  return Model::open(source, std::move(*model_options), std::move(stop));
 }
 
-Result<LoadedModel> load_selection(Model& model, const Selection& selection) {
+Result<LoadedModel> load_selection(Model& model, const Selection& selection, std::stop_token stop) {
   LoadedModel loaded;
   loaded.directory = model.directory();
   loaded.directory_bytes = model.directory_bytes();
@@ -51,7 +51,9 @@ Result<LoadedModel> load_selection(Model& model, const Selection& selection) {
   FetchEvents events;
   events.on_progress = [&](const FetchProgress& progress) { bar.show(progress); };
   events.on_retry = [&](const Error& error, auto delay) { bar.show_retry(error, delay); };
-  auto fetched = model.fetch(selection, std::move(events)).wait();
+  Fetch fetch = model.fetch(selection, std::move(events));
+  const std::stop_callback cancels(stop, [&] { fetch.cancel(); });
+  auto fetched = fetch.wait();
   bar.wipe();
   if (!fetched) return forward_error(fetched);
   loaded.fetched = std::move(*fetched);
@@ -59,16 +61,16 @@ Result<LoadedModel> load_selection(Model& model, const Selection& selection) {
 }
 
 Result<LoadedModel> load_model(const std::string& source, const SelectionOptions& selection,
-                               const SourceOptions& options) {
+                               const SourceOptions& options, std::stop_token stop) {
   // Malformed options are told before anything is opened.
   if (auto ok = selection.selection(); !ok) return forward_error(ok);
   const auto begin = std::chrono::steady_clock::now();
-  auto model = open_model(source, options);
+  auto model = open_model(source, options, stop);
   if (!model) return forward_error(model);
   const std::chrono::duration<double> time_to_open = std::chrono::steady_clock::now() - begin;
   auto settled = settle(model->directory(), selection);
   if (!settled) return forward_error(settled, source);
-  auto loaded = load_selection(*model, *settled);
+  auto loaded = load_selection(*model, *settled, stop);
   if (loaded) loaded->time_to_open = time_to_open;
   return loaded;
 }

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -26,14 +27,14 @@ struct LoadedModel {
 };
 
 /// Opens and fetches what was selected, with progress on a terminal. `source` as in Model::open. Errors name
-/// it.
+/// it. Cancelled soon after `stop`.
 Result<LoadedModel> load_model(const std::string& source, const SelectionOptions& selection = {},
-                               const SourceOptions& options = {});
+                               const SourceOptions& options = {}, std::stop_token stop = {});
 
 /// The same of a model that is open already; time_to_open stays 0.
-Result<LoadedModel> load_selection(Model& model, const Selection& selection);
+Result<LoadedModel> load_selection(Model& model, const Selection& selection, std::stop_token stop = {});
 
-Result<Model> open_model(const std::string& source, const SourceOptions& options);
+Result<Model> open_model(const std::string& source, const SourceOptions& options, std::stop_token stop = {});
 
 /// The directory alone.
 Result<Directory> load_directory(const std::string& source, const ServerOptions& options = {});

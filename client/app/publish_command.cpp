@@ -1,24 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "client/app/publish_command.h"
 
-#include <csignal>
 #include <fstream>
 #include <stop_token>
-#include <thread>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "client/session/blocking_client.h"
+#include "client/fetch/retrying.h"
 #include "common/base/hasher.h"
 #include "common/base/progress_line.h"
+#include "common/base/stop_on_interrupt.h"
 
 namespace selvage {
 namespace {
-
-volatile std::sig_atomic_t g_interrupted = 0;
-
-constexpr std::chrono::milliseconds kFirstPause{500}, kLongestPause{10'000};
 
 /// The file, and what is said of it on the wire.
 Result<Publish> describe(const PublishCommand& command) {
@@ -50,7 +45,7 @@ PublishRequest request_for(const std::filesystem::path& path, const Publish& wha
     file->clear();
     file->seekg(static_cast<std::streamoff>(offset));
     file->read(reinterpret_cast<char*>(into.data()), static_cast<std::streamsize>(into.size()));
-    if (file->bad()) return fail(ErrorCode::Io, path.string() + ": cannot be read");
+    if (file->bad()) return fail(ErrorCode::BadFile, path.string() + ": cannot be read any more");
     return static_cast<std::size_t>(file->gcount());
   };
   return {what, read};
@@ -67,63 +62,39 @@ std::string to_text(const PublishState& state, const Publish& what) {
   return server.permille > 0 ? fmt::format("{} {} %", server.stage, server.permille / 10) : server.stage;
 }
 
-/// Requests a stop once Ctrl-C was pressed, for as long as it lives.
-class StopOnInterrupt {
- public:
-  explicit StopOnInterrupt(std::stop_source& source)
-      : watcher_([&source](std::stop_token end) {
-          while (!end.stop_requested() && g_interrupted == 0) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(50));
-          }
-          if (g_interrupted != 0) source.request_stop();
-        }) {}
-
- private:
-  std::jthread watcher_;
-};
-
-/// A connection that breaks, a server that restarts or is full: what arrived is kept there.
-bool may_resume(const Error& error) {
-  return error.code == ErrorCode::Io || error.code == ErrorCode::Unavailable ||
-         error.code == ErrorCode::Timeout;
-}
-
-Result<Published> publish_once(const PublishCommand& command, const Publish& what, ProgressLine& line,
-                               std::uint64_t& sent, std::stop_token stop) {
-  auto server = parse_host_port(command.server);
-  if (!server) return forward_error(server);
-  auto options = command.connection.client_options();
-  if (!options) return forward_error(options);
-  auto client = BlockingClient::connect(*server, *options);
+Result<Published> publish_once(const PublishCommand& command, const Publish& what,
+                               const OnPublishState& on_state, const std::stop_token& stop) {
+  auto client = command.connection.connect(command.server, stop);
   if (!client) return forward_error(client);
-  const auto on_state = [&](const PublishState& state) {
-    sent = std::max(sent, state.sent_bytes);
-    line.show(to_text(state, what));
-  };
-  return client->publish(request_for(command.model, what), on_state, std::move(stop));
+  auto published = client->publish(request_for(command.model, what), on_state, stop);
+  if (!published) return forward_error(published, command.server);
+  return published;
 }
 
-/// Goes on after a lost connection, with longer and longer pauses while nothing more gets through.
+/// Goes on after a lost connection, a restart of the server or while it is full: what arrived is kept there.
 Result<Published> publish(const PublishCommand& command, const Publish& what) {
-  std::stop_source source;
-  const StopOnInterrupt stops(source);
+  const StopOnInterrupt interrupt;
   ProgressLine line;
-  std::uint64_t sent = 0;
-  auto pause = kFirstPause;
-  for (int failures = 0;; ++failures) {
+  std::uint64_t sent = 0;  // written by the network thread, which publish_once outlives
+  RetryPolicy policy;
+  policy.give_up_after = std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * command.retry_seconds));
+  Retrying retrying(policy, [&](const Error& error, std::chrono::milliseconds delay) {
+    line.show_now(fmt::format("{}; trying again in {:.1f} s", error.message,
+                              1e-3 * static_cast<double>(delay.count())));
+  });
+  for (;;) {
     const std::uint64_t sent_before = sent;
-    auto published = publish_once(command, what, line, sent, source.get_token());
-    if (sent > sent_before) {
-      failures = 0;
-      pause = kFirstPause;
-    }
-    if (published || !may_resume(published.error()) || failures >= command.retries) return published;
-    line.show(fmt::format("{}; trying again", published.error().message));
-    for (auto slept = pause * 0; slept < pause && g_interrupted == 0; slept += kFirstPause / 5) {
-      std::this_thread::sleep_for(kFirstPause / 5);
-    }
-    if (g_interrupted != 0) return fail(ErrorCode::Cancelled, "cancelled; what was sent is kept for a while");
-    pause = std::min(2 * pause, kLongestPause);
+    const auto on_state = [&](const PublishState& state) {
+      sent = std::max(sent, state.sent_bytes);
+      line.show(to_text(state, what));
+    };
+    auto published = publish_once(command, what, on_state, interrupt.token());
+    if (published) return published;
+    if (sent > sent_before) retrying.note_progress();
+    if (retrying.try_again(published.error(), interrupt.token())) continue;
+    const bool is_cut_short = may_pass(published.error()) && interrupt.token().stop_requested();
+    if (!is_cut_short) return published;
+    return fail(ErrorCode::Cancelled, "cancelled; what was sent is kept for a while");
   }
 }
 
@@ -132,9 +103,8 @@ Result<Published> publish(const PublishCommand& command, const Publish& what) {
 Result<void> run(const PublishCommand& command) {
   auto what = describe(command);
   if (!what) return forward_error(what);
-  std::signal(SIGINT, [](int) { g_interrupted = 1; });
   auto published = publish(command, *what);
-  if (!published) return forward_error(published, command.server);
+  if (!published) return forward_error(published);
   for (const std::string& note : published->notes) fmt::print(stderr, "{}: {}\n", what->file, note);
   if (command.json) {
     const nlohmann::ordered_json json = {
@@ -152,12 +122,8 @@ Result<void> run(const PublishCommand& command) {
 }
 
 Result<void> run(const UnpublishCommand& command) {
-  auto server = parse_host_port(command.server);
-  if (!server) return forward_error(server, command.server);
-  auto options = command.connection.client_options();
-  if (!options) return forward_error(options);
-  auto client = BlockingClient::connect(*server, *options);
-  if (!client) return forward_error(client, command.server);
+  auto client = command.connection.connect(command.server);
+  if (!client) return forward_error(client);
   if (auto gone = client->unpublish(command.name); !gone) return forward_error(gone, command.server);
   fmt::print("{}/{} is gone\n", command.server, command.name);
   return {};

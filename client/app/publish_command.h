@@ -19,7 +19,7 @@ struct PublishCommand {
   bool lossless = false;
   bool replace = false;
   PublishCut cut;
-  int retries = 8;  ///< connections lost in a row
+  double retry_seconds = 60;  ///< of failing with nothing getting through; 0: never try again
   bool json = false;
   ServerOptions connection;
 };

@@ -138,7 +138,10 @@ void add(CLI::App& app, PublishCommand& command) {
       ->check(CLI::Range(8, 24))
       ->capture_default_str();
   publish.add_option("--units", command.units, "what one unit of the model is, for instance mm");
-  publish.add_option("--retries", command.retries, "connections lost in a row before it gives up")
+  publish
+      .add_option("--retry-for", command.retry_seconds,
+                  "seconds to go on trying to connect again when a connection breaks; 0: never")
+      ->check(CLI::Range(0.0, 86'400.0))
       ->capture_default_str();
   publish.add_flag("--json", command.json, "print the result as JSON");
   add_cut_options(publish, command.cut);
@@ -179,7 +182,7 @@ int finish(const Command& command) {
   auto result = run(command);
   if (!result) {
     std::fprintf(stderr, "selvage-client: %s\n", result.error().to_string().c_str());
-    return 2;
+    return result.error().code == ErrorCode::Cancelled ? 130 : 2;
   }
   if constexpr (std::is_same_v<decltype(result), Result<bool>>) return *result ? 0 : 1;
   return 0;
@@ -191,7 +194,9 @@ int main(int argc, char** argv) {
   CLI::App app("Fetches, decodes and stitches regions of selvage models.", "selvage-client");
   app.set_version_flag("--version", SELVAGE_VERSION);
   app.require_subcommand(1);
-  app.footer("Exit codes: 0 done (compare: the same), 1 different, 2 failed, 100 and more bad options.");
+  app.footer(
+      "Exit codes: 0 done (compare: the same), 1 different, 2 failed, 130 interrupted, 100 to 127 bad "
+      "options.");
   ListCommand list;
   RegionsCommand regions;
   GetCommand get, unpack;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
 // selvage-load: many scripted clients against one server.
-#include <atomic>
-#include <csignal>
 #include <cstdio>
 
 #include <sys/resource.h>
@@ -15,6 +13,7 @@
 #include "client/app/server_options.h"
 #include "client/load/run_load.h"
 #include "common/base/replace_file.h"
+#include "common/base/stop_on_interrupt.h"
 
 namespace {
 
@@ -37,8 +36,6 @@ constexpr const char* kFooter =
     "Example:\n"
     "  selvage-load localhost:7878 --script visit.load --chart visit.html\n"
     "Exit codes: 0 as expected (without expectations: no errors), 1 not so, 2 nothing could be run.";
-
-std::atomic<bool> g_interrupted = false;
 
 /// Thousands of clients need a descriptor each.
 void allow_many_files() {
@@ -85,12 +82,11 @@ Result<bool> run(const std::string& server, const std::string& script_path, Load
   if (outputs.only_check) return fmt::print("{}: sound\n", script_path), true;
   options.server = *address;
   const bool is_live = ::isatty(STDERR_FILENO) == 1;
-  std::stop_source stop;
+  const StopOnInterrupt interrupt;  // what was measured until then is reported
   options.on_sample = [&](const LoadSample& sample) {
     if (is_live) show_sample(sample);
-    if (g_interrupted) stop.request_stop();
   };
-  const LoadReport report = run_load(*script, options, stop.get_token());
+  const LoadReport report = run_load(*script, options, interrupt.token());
 
   if (!outputs.csv.empty()) {
     auto ok = replace_file(outputs.csv, load_csv(report));
@@ -143,7 +139,6 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
 
   allow_many_files();
-  std::signal(SIGINT, [](int) { g_interrupted = true; });
   options.duration = std::chrono::milliseconds(static_cast<std::int64_t>(seconds * 1000));
   auto client_options = connection.client_options();
   if (!client_options) {

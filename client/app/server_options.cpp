@@ -40,4 +40,10 @@ Result<ClientOptions> ServerOptions::client_options() const {
   return options;
 }
 
+Result<BlockingClient> ServerOptions::connect(const std::string& server, std::stop_token stop) const {
+  auto options = client_options();
+  if (!options) return forward_error(options);
+  return connect_to(server, std::move(*options), std::move(stop));
+}
+
 }  // namespace selvage

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "client/session/client_options.h"
+#include "client/session/blocking_client.h"
 #include "common/base/result.h"
 
 namespace CLI {
@@ -25,6 +25,8 @@ struct ServerOptions {
   void add_to(CLI::App& command);
   /// Errors name the option or the file.
   Result<ClientOptions> client_options() const;
+  /// Connects to HOST:PORT. Errors name it, or the option or the file.
+  Result<BlockingClient> connect(const std::string& server, std::stop_token stop = {}) const;
 };
 
 }  // namespace selvage

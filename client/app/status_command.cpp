@@ -6,8 +6,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "client/session/blocking_client.h"
-
 namespace selvage {
 namespace {
 
@@ -78,12 +76,8 @@ void print_text(const std::string& server, const StatusReport& status, double pi
 }  // namespace
 
 Result<void> run(const StatusCommand& command) {
-  auto server = parse_host_port(command.server);
-  if (!server) return forward_error(server, command.server);
-  auto options = command.connection.client_options();
-  if (!options) return forward_error(options);
-  auto client = BlockingClient::connect(*server, *options);
-  if (!client) return forward_error(client, command.server);
+  auto client = command.connection.connect(command.server);
+  if (!client) return forward_error(client);
   auto ping = client->ping();
   if (!ping) return forward_error(ping, command.server);
   auto status = client->status();

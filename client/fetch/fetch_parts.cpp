@@ -1,50 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "client/fetch/fetch_parts.h"
 
-#include <condition_variable>
-#include <mutex>
-
 #include "client/fetch/missing_parts.h"
 
 namespace selvage {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-using std::chrono::milliseconds;
-
-/// False if `stop` came first.
-bool sleep_for(milliseconds time, const std::stop_token& stop) {
-  std::mutex mutex;
-  std::condition_variable_any wakes;
-  std::unique_lock lock(mutex);
-  wakes.wait_for(lock, stop, time, [] { return false; });
-  return !stop.stop_requested();
-}
-
-/// Waits between tries, and knows when to give up.
-class Retrying {
- public:
-  explicit Retrying(const FetchPartsOptions& options)
-      : options_(options), backoff_(options.retry, std::random_device()()) {}
-
-  void note_progress() { failing_since_.reset(), backoff_.reset(); }
-
-  /// Waits; false if this error is the last word.
-  bool try_again(const Error& error, const std::stop_token& stop) {
-    if (!may_pass(error) || stop.stop_requested()) return false;
-    const auto now = Clock::now();
-    if (!failing_since_) failing_since_ = now;
-    const milliseconds delay = backoff_.next();
-    if (now - *failing_since_ + delay > options_.retry.give_up_after) return false;
-    if (options_.on_retry) options_.on_retry(error, delay);
-    return sleep_for(delay, stop);
-  }
-
- private:
-  const FetchPartsOptions& options_;
-  Backoff backoff_;
-  std::optional<Clock::time_point> failing_since_;
-};
 
 std::uint64_t size_of(const UnfinishedParts& parts) {
   std::uint64_t bytes = 0;
@@ -69,11 +29,6 @@ Result<void> take_cached(PartCache& cache, const Directory& directory, MissingPa
 
 }  // namespace
 
-bool may_pass(const Error& error) {
-  return error.code == ErrorCode::Io || error.code == ErrorCode::Unavailable ||
-         error.code == ErrorCode::Timeout;
-}
-
 Result<FetchPartsStats> fetch_parts(PartSource& source, GetRequest request, const PartSource::OnPart& on_part,
                                     const FetchPartsOptions& options, std::stop_token stop) {
   const Directory& directory = request.manifest->directory;
@@ -96,7 +51,7 @@ Result<FetchPartsStats> fetch_parts(PartSource& source, GetRequest request, cons
     return taken;
   };
   request.unfinished = std::make_shared<UnfinishedParts>();
-  Retrying retrying(options);
+  Retrying retrying(options.retry, options.on_retry);
   while (!missing->empty()) {
     request.have = missing->held();
     const std::uint64_t before = stats.bytes + size_of(*request.unfinished);
@@ -116,7 +71,7 @@ Result<FetchPartsStats> fetch_parts(PartSource& source, GetRequest request, cons
 Result<std::shared_ptr<const Manifest>> open_with_retries(PartSource& source,
                                                           const FetchPartsOptions& options,
                                                           std::stop_token stop) {
-  Retrying retrying(options);
+  Retrying retrying(options.retry, options.on_retry);
   for (;;) {
     auto manifest = source.open(stop);
     if (manifest || !retrying.try_again(manifest.error(), stop)) return manifest;

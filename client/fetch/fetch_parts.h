@@ -4,12 +4,10 @@
 // still missing when a connection breaks.
 #pragma once
 
-#include <chrono>
-#include <functional>
 #include <stop_token>
 
 #include "client/cache/part_cache.h"
-#include "client/fetch/backoff.h"
+#include "client/fetch/retrying.h"
 #include "client/session/part_source.h"
 
 namespace selvage {
@@ -17,8 +15,7 @@ namespace selvage {
 struct FetchPartsOptions {
   PartCache* cache = nullptr;  ///< borrowed; null: none
   RetryPolicy retry;
-  /// Told of every failure that is not the last word, and how long the fetch will wait.
-  std::function<void(const Error&, std::chrono::milliseconds)> on_retry = {};
+  Retrying::OnRetry on_retry = {};
 };
 
 struct FetchPartsStats {
@@ -39,8 +36,5 @@ Result<FetchPartsStats> fetch_parts(PartSource& source, GetRequest request, cons
 Result<std::shared_ptr<const Manifest>> open_with_retries(PartSource& source,
                                                           const FetchPartsOptions& options,
                                                           std::stop_token stop = {});
-
-/// Whether the same may succeed later, without anybody changing anything.
-bool may_pass(const Error& error);
 
 }  // namespace selvage

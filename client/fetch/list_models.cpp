@@ -6,10 +6,8 @@
 namespace selvage {
 
 Result<std::vector<ModelInfo>> list_models(const std::string& server, const ClientOptions& options) {
-  auto address = parse_host_port(server);
-  if (!address) return forward_error(address);
-  auto client = BlockingClient::connect(*address, options);
-  if (!client) return forward_error(client, server);
+  auto client = connect_to(server, options);
+  if (!client) return forward_error(client);
   auto models = client->list();
   if (!models) return forward_error(models, server);
   return models;

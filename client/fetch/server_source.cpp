@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "client/fetch/server_source.h"
 
-#include "client/fetch/fetch_parts.h"
+#include "client/fetch/retrying.h"
 
 namespace selvage {
 
@@ -23,7 +23,7 @@ Result<T> ServerSource::settled(Result<T> outcome) {
 Result<std::shared_ptr<const Manifest>> ServerSource::open(std::stop_token stop) {
   auto connected = connect(stop);
   if (!connected) return forward_error(connected);
-  return settled(client_->open(model_));
+  return settled(client_->open(model_, stop));
 }
 
 Result<GetStats> ServerSource::get(GetRequest request, const OnPart& on_part, std::stop_token stop) {

@@ -135,8 +135,8 @@ Result<std::vector<ModelInfo>> BlockingClient::list() {
   return network_->wait_for(network_->session().list());
 }
 
-Result<std::shared_ptr<const Manifest>> BlockingClient::open(const std::string& name) {
-  return network_->wait_for(network_->session().open(name));
+Result<std::shared_ptr<const Manifest>> BlockingClient::open(const std::string& name, std::stop_token stop) {
+  return network_->wait_for(network_->session().open(name, std::move(stop)));
 }
 
 Result<std::chrono::steady_clock::duration> BlockingClient::ping() {
@@ -169,6 +169,14 @@ Result<GetStats> BlockingClient::get(GetRequest request, const OnPart& on_part, 
       if (!taken) return forward_error(taken);
     }
   }
+}
+
+Result<BlockingClient> connect_to(const std::string& server, ClientOptions options, std::stop_token stop) {
+  auto address = parse_host_port(server);
+  if (!address) return forward_error(address);
+  auto client = BlockingClient::connect(*address, std::move(options), std::move(stop));
+  if (!client) return forward_error(client, server);
+  return client;
 }
 
 }  // namespace selvage

@@ -30,7 +30,7 @@ class BlockingClient {
   BlockingClient& operator=(BlockingClient&&) noexcept;
 
   Result<std::vector<ModelInfo>> list();
-  Result<std::shared_ptr<const Manifest>> open(const std::string& name);
+  Result<std::shared_ptr<const Manifest>> open(const std::string& name, std::stop_token stop = {});
   Result<std::chrono::steady_clock::duration> ping();
   Result<StatusReport> status();
 
@@ -51,5 +51,9 @@ class BlockingClient {
 
   std::unique_ptr<Network> network_;
 };
+
+/// Connects to a server that a person named, as HOST:PORT. Errors name it.
+Result<BlockingClient> connect_to(const std::string& server, ClientOptions options,
+                                  std::stop_token stop = {});
 
 }  // namespace selvage

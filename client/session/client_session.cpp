@@ -403,11 +403,12 @@ asio::awaitable<Result<std::vector<ModelInfo>>> ClientSession::list() {
   co_return all;
 }
 
-asio::awaitable<Result<std::shared_ptr<const Manifest>>> ClientSession::open(std::string name) {
+asio::awaitable<Result<std::shared_ptr<const Manifest>>> ClientSession::open(std::string name,
+                                                                             std::stop_token stop) {
   ManifestReader reader(name, options_.max_directory_bytes);
   OpenModel request;
   request.name = std::move(name);
-  Result<void> answered = co_await exchange(std::move(request), reader, std::stop_token());
+  Result<void> answered = co_await exchange(std::move(request), reader, std::move(stop));
   if (!answered) co_return forward_error(answered);
   Result<Manifest> manifest = reader.manifest();
   if (!manifest) co_return forward_error(manifest);

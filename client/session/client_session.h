@@ -67,8 +67,8 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   /// All models, ascending by name.
   asio::awaitable<Result<std::vector<ModelInfo>>> list();
 
-  /// NotFound; BadStream if the server's pack is damaged or its directory is not what it says.
-  asio::awaitable<Result<std::shared_ptr<const Manifest>>> open(std::string name);
+  /// NotFound; BadStream if the server's pack is damaged or its directory is not what it says; Cancelled.
+  asio::awaitable<Result<std::shared_ptr<const Manifest>>> open(std::string name, std::stop_token stop = {});
 
   /// Called on the strand with each part as it completes; must not block. Parts may come in any order.
   using OnPart = std::function<void(ReceivedPart)>;

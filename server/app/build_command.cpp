@@ -2,7 +2,6 @@
 #include "server/app/build_command.h"
 
 #include <algorithm>
-#include <csignal>
 #include <cstdio>
 
 #include <fmt/format.h>
@@ -11,6 +10,7 @@
 
 #include "common/base/progress_line.h"
 #include "common/base/replace_file.h"
+#include "common/base/stop_on_interrupt.h"
 #include "common/mesh_io/read_mesh.h"
 #include "common/pack/pack.h"
 #include "server/ingest/ingest.h"
@@ -18,8 +18,6 @@
 
 namespace selvage {
 namespace {
-
-volatile std::sig_atomic_t g_interrupted = 0;
 
 std::filesystem::path output_path(const BuildCommand& command) {
   if (!command.pack.empty()) return command.pack;
@@ -136,7 +134,7 @@ Result<void> run(const BuildCommand& command) {
     fmt::print(stderr, "{}: {}\n", command.segmentation.model.string(), note);
 
   // Ctrl-C ends the work between stages; nothing has been written then.
-  std::signal(SIGINT, [](int) { g_interrupted = 1; });
+  const StopOnInterrupt interrupt;
   const std::string name = command.name.empty() ? command.segmentation.model.stem().string() : command.name;
   auto parts = command.segmentation.load_parts(*file);
   if (!parts) return forward_error(parts);
@@ -152,7 +150,7 @@ Result<void> run(const BuildCommand& command) {
   auto model =
       ingest(file->soup, options, threaded_for(command.threads), [&](const std::string& stage, double done) {
         line.show(done > 0 ? fmt::format("{} {:.0f} %", stage, 100 * done) : stage);
-        return g_interrupted == 0;
+        return !interrupt.token().stop_requested();
       });
   line.wipe();
   if (!model) return forward_error(model, command.segmentation.model.string());
