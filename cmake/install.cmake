@@ -20,7 +20,7 @@ install(TARGETS selvage_client selvage_fetch selvage_http selvage_part_cache sel
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/selvage COMPONENT client)
 install(EXPORT selvage-targets NAMESPACE selvage:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/selvage COMPONENT client)
 
-set(selvage_public_headers client/fetch/model.h client/fetch/list_models.h)
+set(selvage_public_headers client/fetch/model.h client/fetch/live_model.h client/fetch/list_models.h)
 install(CODE "
   set(selvage_source \"${PROJECT_SOURCE_DIR}\")
   set(selvage_public_headers \"${selvage_public_headers}\")

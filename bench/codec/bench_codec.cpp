@@ -106,17 +106,15 @@ struct Costs {
     return model >= region_model::kTurned ? "turned, anchors" : "region headers";
   }
 
-  void add(const PartId& id, const EntropyEncoder& symbols, const CodecTables& tables) {
+  void add(const PartId& id, std::span<const Token> tokens, double plain_bits, const CodecTables& tables) {
     SymbolModels models(id.kind == PartKind::Region ? tables.region : tables.bundle);
-    for (const Token& token : symbols.tokens()) {
+    for (const Token& token : tokens) {
       bits[class_of(id.kind, token.model)] +=
           kProbabilityBits - std::log2(models.range(token.model, token.symbol).frequency);
       models.update(token.model, token.symbol);
     }
-    bits[id.kind == PartKind::Region ? "signs, low bits" : "join indices"] +=
-        static_cast<double>(symbols.bit_count());
-    bits[id.kind == PartKind::Region ? "region flush" : "bundle flush"] +=
-        id.kind == PartKind::Region ? 40 : 16;
+    bits[id.kind == PartKind::Region ? "signs, low bits" : "join indices"] += plain_bits;
+    if (id.kind == PartKind::Region) bits["region flush"] += 40;
   }
 };
 
@@ -126,7 +124,7 @@ void bench_whole(const Model& model, const Grid& grid, const CodecTables& tables
   const RegionSource source{model.mesh.table, mesh.positions, {}, {}};
   EntropyEncoder symbols;
   const EncodedRegion ours = encode_region(source, tables, &symbols);
-  costs.add({PartKind::Region, 1}, symbols, tables);
+  costs.add({PartKind::Region, 1}, symbols.tokens(), symbols.plain_bits(), tables);
   const DecodeLimits limits{source.table.vertex_count(), source.table.triangle_count(), ours.box.low,
                             ours.box.high};
   const auto cl7 = draco_encode(mesh, 7, grid.bits), cl10 = draco_encode(mesh, 10, grid.bits);
@@ -197,8 +195,9 @@ void bench_default(const Model& model, const Grid& grid, const CodecTables& tabl
   const Partition partition =
       make_partition(mesh.table, segmentation.region_of_vertex, segmentation.region_count);
   const ModelSource source{mesh.table, mesh.positions, mesh.source_of_vertex, mesh.is_turned, partition};
-  const EncodeHooks hooks{
-      tables, [&](const PartId& id, const EntropyEncoder& symbols) { costs.add(id, symbols, tables); }};
+  const EncodeHooks hooks{tables, [&](const PartId& id, std::span<const Token> tokens, double plain_bits) {
+                            costs.add(id, tokens, plain_bits, tables);
+                          }};
   EncodedModel encoded = encode_model(
       source, grid, serial_for(), [] {}, hooks);
   encoded.directory.vertices = mesh.table.vertex_count();

@@ -48,8 +48,7 @@ TrainingSet make_training_set(const std::vector<const Model*>& models) {
       const ModelSource source{mesh.table, mesh.positions, mesh.source_of_vertex, mesh.is_turned, partition};
       std::vector<Sequence> connectivity(partition.region_count + 1);
       const CodecTables& tables = shipped_tables();
-      const EncodeHooks hooks{tables, [&](const PartId& id, const EntropyEncoder& symbols) {
-                                const auto tokens = symbols.tokens();
+      const EncodeHooks hooks{tables, [&](const PartId& id, std::span<const Token> tokens, double) {
                                 if (id.kind == PartKind::Bundle) {
                                   set.bundles.emplace_back(tokens.begin(), tokens.end());
                                 } else {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "client/decode/bundle_decoder.h"
 
-#include "common/coding/entropy_decoder.h"
+#include "common/coding/range_decoder.h"
 
 namespace selvage {
 namespace {
@@ -94,9 +94,7 @@ class BundleDecoder {
     const std::uint32_t last = progress_.last_touched(slot), base = topology_.vertex(slot, 0);
     if (count == 0) return false;
     if (last == kNone) {
-      const std::uint32_t index = in_.bits(index_bits(count));
-      if (index >= count) return false;
-      v = base + index;
+      v = base + in_.uniform(count);
     } else {
       v = circular_step(last, in_.number(bundle_model::kTipGap), base, count);
     }
@@ -115,7 +113,7 @@ class BundleDecoder {
   }
 
   const BundleTopology& topology_;
-  EntropyDecoder in_;
+  RangeDecoder in_;
   JoinProgress progress_;
   std::uint32_t next_own_ = 0;
   bool has_turned_ = false, last_turned_ = false;
@@ -127,7 +125,7 @@ class BundleDecoder {
 Result<std::vector<BoundaryTriangle>> decode_bundle(std::span<const std::byte> bytes,
                                                     const BundleTopology& topology,
                                                     std::uint32_t triangle_count, const CodecTables& tables) {
-  if (triangle_count > kMaxSymbolsPerByte * bytes.size()) {
+  if (triangle_count > kMaxSymbolsPerByte * (bytes.size() + 1)) {
     return fail(ErrorCode::BadStream, "bundle part: more triangles than its bytes can hold");
   }
   BundleDecoder decoder(bytes, topology, tables.bundle);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "client/fetch/fetch_parts.h"
 
-#include "client/fetch/missing_parts.h"
-
 namespace selvage {
 namespace {
 
@@ -31,18 +29,24 @@ Result<void> take_cached(PartCache& cache, const Directory& directory, MissingPa
 
 Result<FetchPartsStats> fetch_parts(PartSource& source, GetRequest request, const PartSource::OnPart& on_part,
                                     const FetchPartsOptions& options, std::stop_token stop) {
-  const Directory& directory = request.manifest->directory;
-  auto missing = MissingParts::of(directory, request.selection);
+  auto missing = MissingParts::of(request.manifest->directory, request.selection);
   if (!missing) return forward_error(missing);
+  return fetch_parts(source, std::move(request), std::move(*missing), on_part, options, std::move(stop));
+}
+
+Result<FetchPartsStats> fetch_parts(PartSource& source, GetRequest request, MissingParts missing,
+                                    const PartSource::OnPart& on_part, const FetchPartsOptions& options,
+                                    std::stop_token stop) {
+  const Directory& directory = request.manifest->directory;
   FetchPartsStats stats;
   if (options.cache != nullptr) {
-    auto ok = take_cached(*options.cache, directory, *missing, on_part, stats);
+    auto ok = take_cached(*options.cache, directory, missing, on_part, stats);
     if (!ok) return forward_error(ok);
   }
 
   bool is_refused = false;  // by on_part: no try will help
   const auto take = [&](ReceivedPart part) -> Result<void> {
-    if (!missing->take(part.id)) return {};  // came twice, because a request can hold only so many hashes
+    if (!missing.take(part.id)) return {};  // came twice, because a request can hold only so many hashes
     if (options.cache != nullptr) options.cache->put(directory.find(part.id)->hash, part.bytes);
     ++stats.parts;
     stats.bytes += part.bytes.size();
@@ -52,8 +56,8 @@ Result<FetchPartsStats> fetch_parts(PartSource& source, GetRequest request, cons
   };
   request.unfinished = std::make_shared<UnfinishedParts>();
   Retrying retrying(options.retry, options.on_retry);
-  while (!missing->empty()) {
-    request.have = missing->held();
+  while (!missing.empty()) {
+    request.have = missing.held();
     const std::uint64_t before = stats.bytes + size_of(*request.unfinished);
     const auto outcome = source.get(request, take, stop);
     if (outcome) break;
@@ -61,9 +65,9 @@ Result<FetchPartsStats> fetch_parts(PartSource& source, GetRequest request, cons
     if (is_refused || !retrying.try_again(outcome.error(), stop)) return tl::unexpected(outcome.error());
     ++stats.retries;
   }
-  if (!missing->empty()) {
+  if (!missing.empty()) {
     return fail(ErrorCode::BadStream,
-                std::to_string(missing->ids().size()) + " parts of the answer did not come");
+                std::to_string(missing.ids().size()) + " parts of the answer did not come");
   }
   return stats;
 }

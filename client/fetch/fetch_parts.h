@@ -7,6 +7,7 @@
 #include <stop_token>
 
 #include "client/cache/part_cache.h"
+#include "client/fetch/missing_parts.h"
 #include "client/fetch/retrying.h"
 #include "client/session/part_source.h"
 
@@ -26,9 +27,14 @@ struct FetchPartsStats {
   std::uint32_t retries = 0;
 };
 
-/// Every part of the request's selection reaches `on_part` once, on the calling thread; its `have` is not
-/// used. Ends with the first error that will not pass, with that of `on_part`, or with the last of those that
-/// might have passed once the policy gives up. Cancelled soon after `stop`.
+/// Every part that is missing reaches `on_part` once, on the calling thread. `missing` belongs to the
+/// request's selection; the request's `have` is not used. Ends with the first error that will not pass, with
+/// that of `on_part`, or with the last of those that might have passed once the policy gives up. Cancelled
+/// soon after `stop`.
+Result<FetchPartsStats> fetch_parts(PartSource& source, GetRequest request, MissingParts missing,
+                                    const PartSource::OnPart& on_part, const FetchPartsOptions& options,
+                                    std::stop_token stop = {});
+/// The same with nothing there yet.
 Result<FetchPartsStats> fetch_parts(PartSource& source, GetRequest request, const PartSource::OnPart& on_part,
                                     const FetchPartsOptions& options, std::stop_token stop = {});
 

@@ -5,7 +5,7 @@
 //
 //     auto model = selvage::Model::open("example.org:7878/bunny");
 //     selvage::FetchEvents events;
-//     events.on_update = [](const selvage::StitchedMesh& so_far) { draw(so_far); };
+//     events.on_update = [](const selvage::StitchUpdate& changes) { renderer.apply(changes); };
 //     auto fetch = model->fetch({.kind = selvage::Selection::Kind::Ids, .ids = {3, 5}}, events);
 //     fetch.reprioritise(0);  // they came into view
 //     auto fetched = fetch.wait();
@@ -25,6 +25,8 @@
 
 #include "client/cache/part_cache.h"
 #include "client/fetch/backoff.h"
+#include "client/fetch/fetch_events.h"
+#include "client/fetch/live_model.h"
 #include "client/session/client_options.h"
 #include "client/stitch/stitcher.h"
 #include "common/pack/directory.h"
@@ -40,33 +42,6 @@ struct ModelOptions {
   std::optional<std::filesystem::path> cache_folder = std::nullopt;
   std::uint64_t cache_bytes = kDefaultCacheBytes;
   unsigned decode_threads = 0;  ///< 0: all cores
-};
-
-/// What has come of a fetch so far. Parts are regions, one level each, and bundles of joins.
-struct FetchProgress {
-  std::uint32_t regions = 0, of_regions = 0;  ///< decoded, and in all
-  std::uint32_t parts = 0, of_parts = 0;      ///< arrived, and in all
-  std::uint64_t bytes = 0, of_bytes = 0;      ///< of those parts
-};
-
-/// A region was decoded; the next update has it.
-struct ArrivedRegion {
-  RegionId region = 0;
-  std::uint8_t level = 0;
-  std::uint32_t vertices = 0, triangles = 0;  ///< without the triangles that join it to its neighbours
-};
-
-/// Any of these may be left out. They are called one at a time, on threads of the library, and should be
-/// quick; they may cancel or reprioritise their fetch, and must not wait for it or destroy it.
-struct FetchEvents {
-  std::function<void(const ArrivedRegion&)> on_region;
-  /// The regions and joins so far as one mesh: after the first region, then at most every `update_interval`,
-  /// and at last with everything, unless the fetch fails.
-  std::function<void(const StitchedMesh&)> on_update;
-  std::chrono::milliseconds update_interval{100};
-  std::function<void(const FetchProgress&)> on_progress;
-  /// A failure that may pass, and how long the fetch waits before it tries again.
-  std::function<void(const Error&, std::chrono::milliseconds)> on_retry;
 };
 
 struct FetchedModel {
@@ -115,6 +90,10 @@ class Model {
   /// The selection's names are looked up here. `urgency` as in Fetch::reprioritise. The fetch must go before
   /// the model does.
   Fetch fetch(Selection selection, FetchEvents events = {}, std::uint8_t urgency = 3);
+
+  /// For viewers whose regions come and go: shows nothing yet. It must go before the model does, and counts
+  /// as the model's fetch.
+  LiveModel live();
 
  private:
   friend class Fetch;

@@ -54,7 +54,7 @@ Result<void> DecodeCheck::check_mesh(const Selection& selection) {
   const bool is_all = regions->size() == directory.real_region_count() && selection.level == 0 &&
                       selection.joins != Joins::None;
   const bool is_right = is_all ? vertices == directory.vertices && triangles == directory.triangles
-                               : collector_.region_count() >= regions->size() && triangles >= least;
+                               : collector_.regions().size() >= regions->size() && triangles >= least;
   if (is_right) return {};
   return fail(ErrorCode::BadStream,
               "stitched to " + std::to_string(triangles) + " triangles, which is wrong");

@@ -52,9 +52,9 @@ StitchedMesh PartCollector::mesh() const {
   return stitcher_.mesh();
 }
 
-std::size_t PartCollector::region_count() const {
+std::vector<RegionId> PartCollector::regions() const {
   const std::scoped_lock lock(mutex_);
-  return stitcher_.region_count();
+  return stitcher_.regions();
 }
 
 std::optional<std::uint8_t> PartCollector::level_of(RegionId region) const {

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "client/stitch/stitcher.h"
 
@@ -26,7 +27,7 @@ class PartCollector {
 
   StitchUpdate take_update();
   StitchedMesh mesh() const;
-  std::size_t region_count() const;
+  std::vector<RegionId> regions() const;  ///< that are there, ascending
   /// Nothing if the region is not there.
   std::optional<std::uint8_t> level_of(RegionId region) const;
 

@@ -101,6 +101,13 @@ void Stitcher::remove_bundle(RegionId region) {
   joins_.erase(begin, end);
 }
 
+std::vector<RegionId> Stitcher::regions() const {
+  std::vector<RegionId> ids;
+  ids.reserve(regions_.size());
+  for (const auto& [id, region] : regions_) ids.push_back(id);
+  return ids;
+}
+
 std::optional<std::uint8_t> Stitcher::level_of(RegionId region) const {
   const auto found = regions_.find(region);
   if (found == regions_.end()) return std::nullopt;

@@ -51,7 +51,7 @@ class Stitcher {
   /// BadStream if a corner is beyond its region's loops. A bundle added again replaces the one before.
   Result<void> add_bundle(RegionId region, std::vector<BoundaryTriangle> triangles);
 
-  std::size_t region_count() const { return regions_.size(); }
+  std::vector<RegionId> regions() const;  ///< that are there, ascending
   /// Nothing if the region is not there.
   std::optional<std::uint8_t> level_of(RegionId region) const;
 

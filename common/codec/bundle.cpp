@@ -2,12 +2,22 @@
 #include "common/codec/bundle.h"
 
 #include <algorithm>
-#include <bit>
 
 namespace selvage {
 namespace {
 
 std::uint64_t key_of(std::uint32_t tail, std::uint32_t head) { return std::uint64_t{tail} << 32 | head; }
+
+/// Below bundle_model::kRunContexts.
+unsigned context_of(const JoinRuns& runs) {
+  if (runs.side == JoinSymbol::None) return 0;
+  unsigned context = runs.side == JoinSymbol::AdvanceY;
+  for (std::size_t i = 0; i < kLongestRuns.size(); ++i)
+    context = context * (i == 0 ? kLongestRuns[i] : kLongestRuns[i] + 1u) + runs.lengths[i] - (i == 0);
+  return 1 + context;
+}
+
+std::uint8_t capped(std::uint8_t length, std::size_t run) { return std::min(length, kLongestRuns[run]); }
 
 }  // namespace
 
@@ -54,6 +64,13 @@ std::uint32_t BundleTopology::before(std::uint32_t vertex) const {
   return vertex == loop.begin ? loop.begin + loop.length - 1 : vertex - 1;
 }
 
+JoinRuns JoinRuns::then(JoinSymbol symbol) const {
+  if (symbol != JoinSymbol::AdvanceX && symbol != JoinSymbol::AdvanceY) return {};
+  if (symbol == side)
+    return {side, {capped(static_cast<std::uint8_t>(lengths[0] + 1), 0), lengths[1], lengths[2]}};
+  return {symbol, {1, capped(lengths[0], 1), capped(lengths[1], 2)}};
+}
+
 JoinProgress::JoinProgress(const BundleTopology& topology)
     : topology_(topology),
       is_covered_(topology.total_vertices(), false),
@@ -61,14 +78,14 @@ JoinProgress::JoinProgress(const BundleTopology& topology)
 
 void JoinProgress::add_start(const std::array<std::uint32_t, 3>& corners) {
   add_triangle(corners);
-  for (int k = 0; k < 3; ++k) add_gate(corners[k], corners[(k + 1) % 3], 0);
+  for (int k = 0; k < 3; ++k) add_gate(corners[k], corners[(k + 1) % 3], {});
 }
 
 void JoinProgress::add_behind(const JoinGate& from, std::uint32_t z, JoinSymbol symbol) {
   add_triangle({from.y, from.x, z});
-  const auto history = static_cast<std::uint8_t>((from.history << 2 | static_cast<int>(symbol)) & 63);
-  add_gate(from.x, z, history);
-  add_gate(z, from.y, history);
+  const JoinRuns runs = from.runs.then(symbol);
+  add_gate(from.x, z, runs);
+  add_gate(z, from.y, runs);
 }
 
 void JoinProgress::add_triangle(const std::array<std::uint32_t, 3>& corners) {
@@ -82,14 +99,14 @@ void JoinProgress::add_triangle(const std::array<std::uint32_t, 3>& corners) {
 
 /// An edge that meets a waiting gate closes it, others wait. Edges within one region are not gates: a region
 /// triangle lies behind them, or nothing that a strip would reach.
-void JoinProgress::add_gate(std::uint32_t tail, std::uint32_t head, std::uint8_t history) {
+void JoinProgress::add_gate(std::uint32_t tail, std::uint32_t head, const JoinRuns& runs) {
   if (topology_.slot_of(tail) == topology_.slot_of(head)) return;
   if (const auto waiting = open_.find(key_of(head, tail)); waiting != open_.end() && waiting->second > 0) {
     --waiting->second;
     return;
   }
   ++open_[key_of(tail, head)];
-  stack_.push_back({tail, head, history});
+  stack_.push_back({tail, head, runs});
 }
 
 bool JoinProgress::pop(JoinGate& gate) {
@@ -106,9 +123,10 @@ bool JoinProgress::pop(JoinGate& gate) {
 
 unsigned JoinProgress::model_of(const JoinGate& gate) const {
   const std::uint32_t own = topology_.own_slot();
-  const bool touches_own = topology_.slot_of(gate.x) == own || topology_.slot_of(gate.y) == own;
+  const unsigned own_end = topology_.slot_of(gate.x) == own ? 1 : topology_.slot_of(gate.y) == own ? 2 : 0;
   const bool x_is_covered = is_covered_[topology_.before(gate.x)], y_is_covered = is_covered_[gate.y];
-  return bundle_model::kStep + ((gate.history * 2u + x_is_covered) * 2u + y_is_covered) * 2u + touches_own;
+  const unsigned covered = 2u * x_is_covered + y_is_covered;
+  return bundle_model::kStep + (context_of(gate.runs) * 4u + covered) * 3u + own_end;
 }
 
 std::uint32_t circular_gap(std::uint32_t from, std::uint32_t to, std::uint32_t count) {
@@ -121,7 +139,5 @@ std::uint32_t circular_step(std::uint32_t from, std::uint32_t gap, std::uint32_t
   const std::uint64_t up = gap % 2 == 0 ? distance : count - distance;
   return base + static_cast<std::uint32_t>((from - base + up) % count);
 }
-
-int index_bits(std::uint32_t count) { return count < 2 ? 0 : std::bit_width(count - 1); }
 
 }  // namespace selvage

@@ -83,10 +83,20 @@ class BundleTopology {
 enum class JoinSymbol : std::uint8_t { AdvanceX, AdvanceY, None, Other };
 inline constexpr unsigned kJoinSymbols = 4;
 
+/// How a strip ran up to a gate: the lengths of its last advances along one side, the latest first, as far as
+/// they matter. Empty after a start and after a tip in full.
+struct JoinRuns {
+  JoinSymbol side = JoinSymbol::None;  ///< along which the strip advanced last; None if empty
+  std::array<std::uint8_t, 3> lengths{};
+
+  JoinRuns then(JoinSymbol symbol) const;
+};
+inline constexpr std::array<std::uint8_t, 3> kLongestRuns = {4, 3, 2};  ///< longer ones count as these
+
 /// An edge of a triangle already coded, whose other side is not yet known.
 struct JoinGate {
   std::uint32_t x = 0, y = 0;
-  std::uint8_t history = 0;  ///< the last three symbols on the way here
+  JoinRuns runs;
 };
 
 /// What encoder and decoder know of a bundle while it grows: the gates still to be asked about, the loop
@@ -105,7 +115,7 @@ class JoinProgress {
   bool pop(JoinGate& gate);
 
   /// The model of the symbol behind a gate: by the way the strip ran so far, whether the two loop edges that
-  /// it could advance along are still free, and whether the bundle's own region is at the gate.
+  /// it could advance along are still free, and which end of the gate is in the bundle's own region.
   unsigned model_of(const JoinGate& gate) const;
 
   /// True if the loop edge from `vertex` to the one after it has its boundary triangle.
@@ -116,7 +126,7 @@ class JoinProgress {
 
  private:
   void add_triangle(const std::array<std::uint32_t, 3>& corners);
-  void add_gate(std::uint32_t tail, std::uint32_t head, std::uint8_t history);
+  void add_gate(std::uint32_t tail, std::uint32_t head, const JoinRuns& runs);
 
   const BundleTopology& topology_;
   std::vector<JoinGate> stack_;
@@ -135,8 +145,5 @@ enum class JoinStart : std::uint8_t {
 /// end if that is shorter; even numbers go up. circular_step is its inverse.
 std::uint32_t circular_gap(std::uint32_t from, std::uint32_t to, std::uint32_t count);
 std::uint32_t circular_step(std::uint32_t from, std::uint32_t gap, std::uint32_t base, std::uint32_t count);
-
-/// Bits that an index below `count` takes uncoded.
-int index_bits(std::uint32_t count);
 
 }  // namespace selvage

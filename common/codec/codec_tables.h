@@ -53,7 +53,8 @@ enum Field : unsigned {
 
 /// And in a bundle's bank.
 namespace bundle_model {
-inline constexpr unsigned kStepContexts = 512;
+inline constexpr unsigned kRunContexts = 1 + 2 * 4 * 4 * 3;      ///< see JoinRuns
+inline constexpr unsigned kStepContexts = kRunContexts * 4 * 3;  ///< see JoinProgress::model_of
 inline constexpr unsigned kStep = 0;
 enum Field : unsigned {
   kStart = kStep + kStepContexts,

@@ -16,14 +16,6 @@ namespace selvage {
 /// The state stays in [2^16, 2^32); the encoder's starts here, so the decoder's ends here.
 inline constexpr std::uint32_t kStateLow = 1u << 16;
 
-/// A byte backs at most this many symbols: the likeliest one leaves at least 2^-15 to each of the 15 others,
-/// which costs 2^-15 * 15 / ln 2 bits.
-inline constexpr std::uint64_t kMaxSymbolsPerByte = 8 << 11;
-
-/// Bit lengths from here on take an escape and kLongNumberBits more bits.
-inline constexpr int kLongNumber = 15;
-inline constexpr int kLongNumberBits = 5;
-
 class EntropyDecoder {
  public:
   EntropyDecoder(std::span<const std::byte> bytes, std::span<const StartModel> start)

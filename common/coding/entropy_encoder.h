@@ -18,12 +18,6 @@
 
 namespace selvage {
 
-/// A symbol yet to be coded: in training and statistics, what models are fed with.
-struct Token {
-  std::uint32_t model : 28;
-  std::uint32_t symbol : 4;
-};
-
 class EntropyEncoder {
  public:
   void symbol(unsigned model, unsigned symbol) { tokens_.push_back({model, symbol}); }
@@ -41,7 +35,8 @@ class EntropyEncoder {
   void number(unsigned length_model, std::uint32_t value);
 
   std::span<const Token> tokens() const { return tokens_; }
-  std::uint64_t bit_count() const { return bit_count_; }
+  /// What was coded without a model.
+  double plain_bits() const { return static_cast<double>(bit_count_); }
 
   /// Remembers this place: finish() tells how many bytes come before it.
   void mark() { mark_ = tokens_.size(); }

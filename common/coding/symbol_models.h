@@ -24,6 +24,20 @@ inline constexpr unsigned kSymbols = 16;
 inline constexpr int kProbabilityBits = 15;
 inline constexpr std::uint32_t kProbabilityOne = 1u << kProbabilityBits;
 
+/// A symbol yet to be coded: in training and statistics, what models are fed with.
+struct Token {
+  std::uint32_t model : 28;
+  std::uint32_t symbol : 4;
+};
+
+/// A byte backs at most this many symbols: the likeliest one leaves at least 2^-15 to each of the 15 others,
+/// which costs 2^-15 * 15 / ln 2 bits.
+inline constexpr std::uint64_t kMaxSymbolsPerByte = 8 << 11;
+
+/// Bit lengths from here on take an escape and kLongNumberBits more bits.
+inline constexpr int kLongNumber = 15;
+inline constexpr int kLongNumberBits = 5;
+
 /// A symbol's share of [0, kProbabilityOne).
 struct SymbolRange {
   std::uint32_t start = 0;

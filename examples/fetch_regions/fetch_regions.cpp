@@ -17,8 +17,9 @@ int main(int argc, char** argv) {
   events.on_region = [](const selvage::ArrivedRegion& arrived) {
     std::printf("region %u: %u triangles\n", arrived.region, arrived.triangles);
   };
-  events.on_update = [](const selvage::StitchedMesh& so_far) {
-    std::printf("stitched so far: %zu triangles\n", so_far.soup.triangles.size());
+  events.on_update = [](const selvage::StitchUpdate& changes) {
+    std::printf("stitched: %zu vertices and %zu patches changed\n", changes.vertices.size(),
+                changes.patches.size());
   };
   auto fetch = model->fetch(*selection, events);
   fetch.reprioritise(0);  // say, because the regions came into view

@@ -27,7 +27,7 @@ class BundleEncoder {
     std::sort(half_edges_.begin(), half_edges_.end());
   }
 
-  Bytes run(std::span<const StartModel> start, EntropyEncoder* symbols) && {
+  Bytes run(std::span<const StartModel> start, RangeEncoder* symbols) && {
     has_turned_ = std::any_of(triangles_.begin(), triangles_.end(),
                               [](const BoundaryTriangle& t) { return t.is_turned; });
     out_.symbol(bundle_model::kHasTurned, has_turned_);
@@ -35,7 +35,7 @@ class BundleEncoder {
     for (std::uint32_t seed = 0; seed < corners_.size(); ++seed) {
       if (!is_coded_[seed]) start_at_corners(seed);
     }
-    Bytes bytes = out_.finish(start).bytes;
+    Bytes bytes = out_.finish(start);
     if (symbols != nullptr) *symbols = std::move(out_);
     return bytes;
   }
@@ -111,7 +111,7 @@ class BundleEncoder {
     out_.number(slot_model, topology_.own_slot() - slot);
     const std::uint32_t last = progress_.last_touched(slot);
     if (last == kNone) {
-      out_.bits(v - topology_.vertex(slot, 0), index_bits(count));
+      out_.uniform(v - topology_.vertex(slot, 0), count);
     } else {
       out_.number(bundle_model::kTipGap, circular_gap(last, v, count));
     }
@@ -130,14 +130,14 @@ class BundleEncoder {
   std::vector<HalfEdge> half_edges_;
   std::vector<bool> is_coded_;
   bool has_turned_ = false, last_turned_ = false;
-  EntropyEncoder out_;
+  RangeEncoder out_;
   JoinProgress progress_;
 };
 
 }  // namespace
 
 Bytes encode_bundle(const BundleTopology& topology, std::span<const BoundaryTriangle> triangles,
-                    const CodecTables& tables, EntropyEncoder* symbols) {
+                    const CodecTables& tables, RangeEncoder* symbols) {
   return BundleEncoder(topology, triangles).run(tables.bundle, symbols);
 }
 

@@ -114,6 +114,11 @@ class ModelEncoder {
   }
 
  private:
+  template <class Encoder>
+  void note(const PartId& id, const Encoder& symbols) const {
+    if (hooks_.on_symbols) hooks_.on_symbols(id, symbols.tokens(), symbols.plain_bits());
+  }
+
   RegionSource cut_out(RegionId region) const {
     RegionSource cut;
     const auto vertices = by_region_.of(region);
@@ -161,7 +166,7 @@ class ModelEncoder {
     const RegionSource cut = cut_out(region);
     EntropyEncoder symbols;
     EncodedRegion encoded = encode_region(cut, hooks_.tables, hooks_.on_symbols ? &symbols : nullptr);
-    if (hooks_.on_symbols) hooks_.on_symbols({PartKind::Region, region}, symbols);
+    note({PartKind::Region, region}, symbols);
     connectivity_size = encoded.connectivity_size;
     const auto vertices = by_region_.of(region);
     for (std::uint32_t index = 0; index < encoded.loops.vertices.size(); ++index) {
@@ -208,8 +213,7 @@ class ModelEncoder {
                   .deviation = above(source.bound * grid_.step),
                   .dropped_bits = static_cast<std::uint8_t>(source.dropped_bits)};
         parts.push_back(std::move(bytes));
-        if (hooks_.on_symbols)
-          hooks_.on_symbols({PartKind::Region, region, static_cast<std::uint8_t>(level)}, symbols);
+        note({PartKind::Region, region, static_cast<std::uint8_t>(level)}, symbols);
       }
     }
     entry.levels.push_back(coarse);
@@ -232,10 +236,10 @@ class ModelEncoder {
     touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
     std::vector<BundleTopology::Region> topology;
     for (RegionId id : touched) topology.push_back({id, entries[id].loop_lengths});
-    EntropyEncoder symbols;
+    RangeEncoder symbols;
     Bytes bytes = encode_bundle(BundleTopology(std::move(topology)), named, hooks_.tables,
                                 hooks_.on_symbols ? &symbols : nullptr);
-    if (hooks_.on_symbols) hooks_.on_symbols({PartKind::Bundle, region}, symbols);
+    note({PartKind::Bundle, region}, symbols);
     touched.pop_back();
     entries[region].lower_neighbours = std::move(touched);
     return bytes;

@@ -10,7 +10,7 @@
 #include "common/base/parallel.h"
 #include "common/codec/codec_tables.h"
 #include "common/coding/byte_io.h"
-#include "common/coding/entropy_encoder.h"
+#include "common/coding/symbol_models.h"
 #include "common/mesh/corner_table.h"
 #include "common/mesh/grid.h"
 #include "common/pack/directory.h"
@@ -46,7 +46,7 @@ struct EncodedModel {
 /// be called from several threads at once.
 struct EncodeHooks {
   const CodecTables& tables = shipped_tables();
-  std::function<void(const PartId&, const EntropyEncoder&)> on_symbols = nullptr;
+  std::function<void(const PartId&, std::span<const Token>, double plain_bits)> on_symbols = nullptr;
 };
 
 /// A level of a region that takes no less bytes than the one before is left out as its repeat.

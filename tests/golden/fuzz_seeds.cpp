@@ -5,6 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "tests/fuzz/part_input.h"
+
 namespace selvage {
 namespace {
 
@@ -13,54 +15,30 @@ constexpr std::size_t kLargestPart = 1024, kLargestPack = 3072;  // of one witho
 /// About so many regions of a pack, spread over it.
 constexpr std::size_t kRegions = 6;
 
-bool fits_u16(std::int64_t value) { return value >= 0 && value <= 0xffff; }
-
-/// See tests/fuzz/fuzz_region.cpp.
 std::optional<Bytes> region_seed(const Pack& pack, RegionId region, std::size_t level) {
   const Directory& directory = pack.directory();
   const RegionEntry& entry = directory.regions[region];
   const LevelEntry& at = entry.levels[level];
-  ByteWriter out;
-  bool fits = fits_u16(at.vertices) && fits_u16(at.triangles) && entry.loop_lengths.size() < 256;
-  const auto u16 = [&](std::int64_t value) {
-    fits = fits && fits_u16(value);
-    out.u16(static_cast<std::uint16_t>(value));
-  };
-  u16(at.vertices);
-  u16(at.triangles);
-  out.u8(static_cast<std::uint8_t>((level == 0 && directory.is_exact ? 1 : 0) | (level > 0 ? 2 : 0)));
-  for (int axis = 0; axis < 3; ++axis) u16(entry.box_min[axis]);
-  for (int axis = 0; axis < 3; ++axis) u16(std::int64_t{entry.box_max[axis]} - entry.box_min[axis]);
+  RegionInput input;
+  input.expected = {at.vertices, at.triangles, entry.box_min, entry.box_max};
+  if (level == 0 && directory.is_exact) input.expected.exact = kExactInputGrid;
   if (level > 0) {
-    out.u8(at.dropped_bits);
-    out.u8(static_cast<std::uint8_t>(entry.loop_lengths.size()));
-    for (const std::uint32_t length : entry.loop_lengths) u16(length);
+    input.loops = entry.loop_lengths;
+    input.expected.coarse = CoarseLevel{input.loops, at.dropped_bits};
   }
-  out.append(pack.part(at.part));
-  if (!fits || at.part.size > kLargestPart) return std::nullopt;
-  return std::move(out).take();
+  input.part = pack.part(at.part);
+  return at.part.size <= kLargestPart ? write_region_input(input) : std::nullopt;
 }
 
-/// See tests/fuzz/fuzz_bundle.cpp.
 std::optional<Bytes> bundle_seed(const Pack& pack, RegionId region) {
   const Directory& directory = pack.directory();
   const RegionEntry& entry = directory.regions[region];
-  std::vector<RegionId> touched = entry.lower_neighbours;
-  touched.push_back(region);
-  bool fits = touched.size() <= 8 && fits_u16(entry.bundle_triangles) && entry.bundle.size <= kLargestPart;
-  ByteWriter out;
-  out.u8(static_cast<std::uint8_t>(touched.size() - 1));
-  for (const RegionId id : touched) {
-    const auto& lengths = directory.regions[id].loop_lengths;
-    fits = fits && lengths.size() < 8 &&
-           std::ranges::all_of(lengths, [](std::uint32_t length) { return length >= 1 && length <= 256; });
-    out.u8(static_cast<std::uint8_t>(lengths.size()));
-    for (const std::uint32_t length : lengths) out.u8(static_cast<std::uint8_t>(length - 1));
-  }
-  out.u16(static_cast<std::uint16_t>(entry.bundle_triangles));
-  out.append(pack.part(entry.bundle));
-  if (!fits) return std::nullopt;
-  return std::move(out).take();
+  BundleInput input;
+  for (const RegionId id : entry.lower_neighbours) input.loops.push_back(directory.regions[id].loop_lengths);
+  input.loops.push_back(entry.loop_lengths);
+  input.triangles = entry.bundle_triangles;
+  input.part = pack.part(entry.bundle);
+  return entry.bundle.size <= kLargestPart ? write_bundle_input(input) : std::nullopt;
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ done
 
 output=$("$work/build/fetch_regions" "127.0.0.1:$(< "$work/port")/waterneck" 1,3-4)
 printf '%s\n' "$output"
-for expected in 'region 1:' 'region 3:' 'region 4:' 'stitched so far:' 'done: 3 regions'; do
+for expected in 'region 1:' 'region 3:' 'region 4:' 'stitched:' 'done: 3 regions'; do
   [[ $output == *"$expected"* ]] || die "the example does not say '$expected'"
 done
 ! "$work/build/fetch_regions" "127.0.0.1:$(< "$work/port")/nothing" 1 2> "$work/error" || die "no error for a model that is not there"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "client/live/live_model.h"
+#include "client/fetch/live_model.h"
 
 #include <algorithm>
 #include <array>
@@ -28,14 +28,14 @@ LevelledModel model_of(const TriangleSoup& soup) {
 }
 
 /// Answers like a server, from memory; can break off.
-struct FakeServer {
+struct FakeServer final : PartSource {
   TriangleSoup soup = shapes::torus(24, 60);
   LevelledModel model = model_of(soup);
   std::shared_ptr<const Pack> pack = Pack::from_bytes(levelled_pack(model, 14)).value();
   std::uint32_t fails_after = 0xFFFFFFFFu;  // parts
   std::vector<PartId> sent;
 
-  std::shared_ptr<const Manifest> manifest() const {
+  Result<std::shared_ptr<const Manifest>> open(std::stop_token) override {
     auto manifest = std::make_shared<Manifest>();
     manifest->name = "model";
     manifest->pack_id = pack->id();
@@ -43,7 +43,7 @@ struct FakeServer {
     return manifest;
   }
 
-  Result<GetStats> get(const GetRequest& request, const BlockingClient::OnPart& on_part) {
+  Result<GetStats> get(GetRequest request, const OnPart& on_part, std::stop_token) override {
     GetStats stats;
     auto parts = select_parts(pack->directory(), request.selection);
     if (!parts) return forward_error(parts);
@@ -71,13 +71,22 @@ struct Viewer {
   FakeServer server;
   MeshMirror mirror;
   int updates = 0;
-  LiveModel live{server.manifest(),
-                 [this](auto request, const auto& on_part) { return server.get(request, on_part); }};
+  LiveModel live{server.open({}).value(), server, impatient()};
 
-  std::function<void(const StitchUpdate&)> draw = [this](const StitchUpdate& update) {
-    mirror.apply(update);
-    ++updates;
-  };
+  FetchEvents draw = {.on_update =
+                          [this](const StitchUpdate& update) {
+                            EXPECT_FALSE(update.vertices.empty() && update.patches.empty() &&
+                                         update.removed_vertices.empty());
+                            mirror.apply(update);
+                            ++updates;
+                          },
+                      .update_interval = std::chrono::milliseconds(0)};
+
+  static ShowOptions impatient() {
+    ShowOptions options;
+    options.fetch.retry.give_up_after = std::chrono::milliseconds(0);
+    return options;
+  }
   void expect_mirror_shows_the_mesh() const {
     const auto comparison = compare_meshes(live.mesh().soup, mirror.soup(), 0);
     EXPECT_TRUE(comparison.same) << comparison.difference;
@@ -124,7 +133,7 @@ TEST(LiveModel, HidesAndShowsAgainWithoutFetchingJoins) {
   Viewer viewer;
   ASSERT_TRUE(viewer.live.show({}, viewer.draw));
   const std::vector<RegionId> hidden = {2, 3};
-  viewer.live.hide(hidden, viewer.draw);
+  viewer.live.hide(hidden, viewer.draw.on_update);
   viewer.expect_mirror_shows_the_mesh();
   EXPECT_EQ(viewer.live.level_of(2), std::nullopt);
   EXPECT_LT(viewer.mirror.soup().triangles.size(), viewer.server.soup.triangles.size());
@@ -153,7 +162,7 @@ TEST(LiveModel, AsksNobodyForWhatIsThere) {
   viewer.server.fails_after = 0;
   const auto stats = viewer.live.show(ids({4}), viewer.draw);
   ASSERT_TRUE(stats);
-  EXPECT_EQ(stats->parts, 0u);
+  EXPECT_EQ(stats->fetched.parts, 0u);
   EXPECT_EQ(viewer.updates, 0);
 }
 
