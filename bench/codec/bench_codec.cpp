@@ -20,6 +20,7 @@
 #include <CLI/CLI.hpp>
 
 #include "bench/codec/joins.h"
+#include "bench/codec/lossless.h"
 #include "bench/codec/rivals.h"
 #include "bench/support/corpus.h"
 #include "bench/train/trainer.h"
@@ -39,7 +40,7 @@ struct Options {
   std::vector<int> bits = {11, 12, 14, 16};
   unsigned folds = 4;
   int repeats = 3;
-  bool per_region = true, details = false;
+  bool per_region = true, is_lossless = false;
 };
 
 double median(std::vector<double> values) {
@@ -239,8 +240,20 @@ void bench_default(const Model& model, const Grid& grid, const CodecTables& tabl
       welding.wrong_welds, 1e3 * welding.seconds);
 }
 
+void bench_lossless(const Model& model, const CodecTables& tables, Totals& totals) {
+  const LosslessSizes sizes = lossless_sizes(model, tables);
+  const auto ours = static_cast<double>(sizes.ours), xz = static_cast<double>(sizes.xz),
+             zstd = static_cast<double>(sizes.zstd);
+  totals.add("lossless", ours);
+  totals.add("xz", xz);
+  totals.add("zstd", zstd);
+  std::printf("%-30s lossless positions %8zu  xz -9 %8zu  %.3f  zstd -19 %8zu  %.3f\n", model.name.c_str(),
+              sizes.ours, sizes.xz, ours / xz, sizes.zstd, ours / zstd);
+}
+
 void bench_model(const Model& model, const CodecTables& tables, const Options& options, Totals& totals,
                  Costs& whole, Costs& segmented) {
+  if (options.is_lossless) return bench_lossless(model, tables, totals);
   for (int bits : options.bits) {
     const Grid grid = make_grid(model.mesh.positions, bits);
     bench_whole(model, grid, tables, options, totals, whole);
@@ -297,6 +310,11 @@ int run(const Options& options) {
 
   std::printf("\nsums over %zu models%s\n", models.size(),
               training.empty() ? ", shipped tables" : ", tables trained without them");
+  if (options.is_lossless) {
+    std::printf("lossless positions: %.3f of xz -9, %.3f of zstd -19\n", totals.ratio("lossless", "xz"),
+                totals.ratio("lossless", "zstd"));
+    return 0;
+  }
   for (int bits : options.bits) {
     const std::string tag = std::to_string(bits);
     std::printf(
@@ -346,6 +364,8 @@ int main(int argc, char** argv) {
   app.add_option("--bits", options.bits, "grid bits");
   app.add_option("--repeats", options.repeats, "runs a time is the median of");
   app.add_flag("!--no-regions", options.per_region, "skip the regions of 2000 and 500 vertices");
+  app.add_flag("--lossless", options.is_lossless,
+               "positions bit for bit, against xz and zstd, and nothing else");
   CLI11_PARSE(app, argc, argv);
   return selvage::bench::run(options);
 }

@@ -122,6 +122,10 @@ class BundleDecoder {
 
 }  // namespace
 
+std::uint64_t decode_memory_bound(const BundleTopology& topology, std::uint32_t triangle_count) {
+  return 65536 + 256 * std::uint64_t{triangle_count} + topology.total_vertices();
+}
+
 Result<std::vector<BoundaryTriangle>> decode_bundle(std::span<const std::byte> bytes,
                                                     const BundleTopology& topology,
                                                     std::uint32_t triangle_count, const CodecTables& tables) {

@@ -10,6 +10,9 @@
 
 namespace selvage {
 
+/// The most heap memory that decode_bundle takes at once, the result included, whatever the bytes.
+std::uint64_t decode_memory_bound(const BundleTopology& topology, std::uint32_t triangle_count);
+
 /// Decodes one bundle. Needs only the directory: which regions it touches, their loop lengths, and how many
 /// triangles it holds; not the regions themselves. Safe on hostile input: every corner it gives is within its
 /// region's loops, every triangle has three different corners and touches the bundle's own region.

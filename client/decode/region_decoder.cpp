@@ -32,6 +32,13 @@ std::uint64_t finest_boundary(const CoarseLevel& coarse) {
 
 }  // namespace
 
+std::uint64_t decode_memory_bound(const DecodeLimits& expected) {
+  const std::uint64_t elements = std::uint64_t{expected.vertices} + expected.triangles;
+  const std::uint64_t boundary = expected.coarse ? finest_boundary(*expected.coarse) : 0;
+  const std::uint64_t exact = expected.exact ? expected.vertices : 0;
+  return 65536 + 128 * elements + 192 * exact + 16 * boundary;
+}
+
 Result<RegionMesh> decode_region(std::span<const std::byte> bytes, const DecodeLimits& expected,
                                  const CodecTables& tables) {
   ByteReader reader(bytes);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 
@@ -27,11 +28,13 @@ struct DecodeLimits {
   std::optional<CoarseLevel> coarse = std::nullopt;  ///< nothing for the finest level
 };
 
+/// The most heap memory that decode_region takes at once, the result included, whatever the bytes.
+std::uint64_t decode_memory_bound(const DecodeLimits& expected);
+
 /// Decodes one region from `bytes`. Needs nothing from other regions. Safe on hostile input: reads only
-/// `bytes`, allocates at most a fixed multiple of what `expected` and the number of bytes allow
-/// (docs/FORMAT.md, "Limits"). Boundary vertices come out in encoder order, which is the order that bundles
-/// refer to.
-/// `tables` must be those that it was coded with; only benchmarks pass others.
+/// `bytes`, and takes no more than decode_memory_bound, nor any of it before it knows that so few bytes may
+/// hold so much (docs/FORMAT.md, "Limits"). Boundary vertices come out in encoder order, which is the order
+/// that bundles refer to. `tables` must be those that it was coded with; only benchmarks pass others.
 Result<RegionMesh> decode_region(std::span<const std::byte> bytes, const DecodeLimits& expected,
                                  const CodecTables& tables = shipped_tables());
 

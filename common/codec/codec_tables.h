@@ -40,9 +40,11 @@ enum Field : unsigned {
   kAnchorGap,
   kGroupStep,
   kLooseCount,
-  kExact,  ///< three: by the symbol before on the same axis
-  kExact1,
-  kExact2,
+  kDigits,  ///< of the decimals that floats are, 0 if they are none
+  kPlaces,
+  kExact,                  ///< by the symbol before on the same axis where the coordinate came up before, ...
+  kExactNew = kExact + 4,  ///< ... and where not
+  kAfterExact = kExactNew + 4 - 1,
   kMapLoop,    ///< bit lengths, as the next: which loop of a coarser level, counted from the one expected
   kMapLead,    ///< boundary indices before the first whole run
   kMapRun,     ///< boundary indices that a vertex of a coarser level stands for, less one

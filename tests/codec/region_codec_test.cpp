@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <iterator>
 #include <random>
 
@@ -157,6 +158,44 @@ TEST(RegionCodec, RestoresFloatsBitForBit) {
       }
     }
   }
+}
+
+// Most meshes in text files have such coordinates.
+TEST(RegionCodec, TakesFewBitsForFloatsThatAreShortDecimals) {
+  RegionSource source = source_of(split_fans(shapes::sphere(4)));
+  source.grid = Grid{.origin = {-50, 0.25, 1000}, .step = 0.01, .bits = kBits};
+  std::mt19937 random(1);
+  for (const GridPoint& p : source.positions) {
+    ExactPosition exact{};
+    for (int axis = 0; axis < 3; ++axis) {
+      const double within = (static_cast<int>(random() % 9) - 4) * 0.001;  // one decimal of nine in the cell
+      const double value = source.grid.origin[axis] + p[axis] * source.grid.step + within;
+      exact[static_cast<std::size_t>(axis)] = static_cast<float>(std::round(value * 1000) / 1000);
+    }
+    source.exact.push_back(exact);
+  }
+  RegionSource without = source;
+  without.exact.clear();
+  const EncodedRegion encoded = encode_region(source);
+  ASSERT_TRUE(decode_region(encoded.bytes, limits_of(source)));
+  const double bits = 8.0 * static_cast<double>(encoded.bytes.size() - encode_region(without).bytes.size()) /
+                      static_cast<double>(3 * source.exact.size());
+  EXPECT_LT(bits, std::log2(11) + 0.3);  // eleven with both ends
+}
+
+TEST(Decimals, RankAsTheirValuesDo) {
+  for (const Decimals decimals : {Decimals{1, 0}, Decimals{6, 6}, Decimals{9, 15}, Decimals{3, 2}}) {
+    for (std::int64_t rank = -5000; rank < 5000; ++rank)
+      EXPECT_LE(decimals.value(rank), decimals.value(rank + 1)) << rank;
+  }
+}
+
+TEST(Decimals, ComeBackFromTheirFloats) {
+  const Decimals six{6, 6};
+  for (const float value : {0.0f, 0.1f, 1.25f, -3.14159f, 123456e10f, 0.000001f, 99999.9f, 100000.0f, -1e20f})
+    EXPECT_EQ(six.value(six.rank(double{value})), value);
+  EXPECT_NE(six.value(six.rank(0.1234567)), 0.1234567f);
+  EXPECT_TRUE(std::isfinite(six.value(six.rank(3.4028234e38))));
 }
 
 TEST(RegionCodec, RefusesExactPositionsThatTheDirectoryDoesNotPromise) {

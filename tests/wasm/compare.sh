@@ -12,9 +12,7 @@ clang++-14 --target=wasm32-wasi -fno-exceptions "$work/probe.cpp" -o "$work/prob
 
 cd "$source"
 clang++-14 --target=wasm32-wasi -O1 -std=c++20 -fno-exceptions -ffp-contract=off -I. -idirafter /usr/include \
-  tests/wasm/decode_parts.cpp common/base/result.cpp common/coding/byte_io.cpp common/coding/range_decoder.cpp common/coding/symbol_models.cpp \
-  common/codec/*.cpp common/mesh/boundary_loops.cpp common/mesh/corner_table.cpp common/mesh/edge_groups.cpp \
-  client/decode/*.cpp -o "$work/decode_parts.wasm"
+  $(cat tests/wasm/decoder_sources.txt) -o "$work/decode_parts.wasm"
 set -- "$source"/tests/fuzz/corpus/fuzz_region/* "$source"/tests/fuzz/corpus/fuzz_bundle/*
 "$native" "$@" > "$work/native.txt"
 node --no-warnings tests/wasm/run_wasi.mjs "$work/decode_parts.wasm" "$@" > "$work/wasm.txt"
