@@ -22,6 +22,7 @@
 #include "bench/codec/joins.h"
 #include "bench/codec/lossless.h"
 #include "bench/codec/rivals.h"
+#include "bench/codec/stages.h"
 #include "bench/support/corpus.h"
 #include "bench/train/trainer.h"
 #include "client/decode/bundle_decoder.h"
@@ -138,6 +139,9 @@ void bench_whole(const Model& model, const Grid& grid, const CodecTables& tables
       options.repeats, {[&] { (void)decode_region(ours.bytes, limits, tables); }, [&] { draco_decode(cl7); },
                         [&] { draco_decode(cl10); }, [&] { (void)encode_region(source, tables); },
                         [&] { draco_encode(mesh, 10, grid.bits); }});
+  const EncodeStages encode = encode_stages(source.table, source.positions, tables);
+  totals.add("encode connectivity", encode.connectivity);
+  totals.add("encode all", encode.all);
   const std::size_t rest = grid.bits <= 16 ? meshoptimizer_size(mesh) : 0;
   const std::string tag = std::to_string(grid.bits);
   totals.add("whole " + tag, static_cast<double>(ours.bytes.size()));
@@ -180,7 +184,11 @@ void bench_regions(const Model& model, const Grid& grid, const CodecTables& tabl
   totals.add("cl10 regions " + tag, static_cast<double>(draco));
   totals.add("joins " + tag, 8.0 * static_cast<double>(joins));
   totals.add("boundary " + tag, encoded.directory.boundary_triangles);
-  totals.add("pack " + tag, static_cast<double>(assemble_pack(encoded.directory, encoded.parts).size()));
+  std::size_t parts = 0;
+  for (const Bytes& bytes : encoded.parts) parts += bytes.size();
+  const std::size_t pack = assemble_pack(encoded.directory, encoded.parts).size();
+  totals.add("pack " + tag, static_cast<double>(pack));
+  totals.add("directory " + tag, static_cast<double>(pack - parts + partition.region_count));
   totals.add("cl10 for " + tag,
              static_cast<double>(draco_encode(whole_grid_mesh(mesh, grid), 10, grid.bits).size()));
   std::printf(
@@ -212,7 +220,14 @@ void bench_default(const Model& model, const Grid& grid, const CodecTables& tabl
     if (entry.bundle_triangles > 0) joins += (part++)->size();
   }
   for (const Bytes& bytes : encoded.parts) parts += bytes.size();
-  const std::size_t pack = assemble_pack(encoded.directory, encoded.parts).size();
+  const Bytes packed = assemble_pack(encoded.directory, encoded.parts);
+  const DecodeStages stages = decode_stages(packed, tables);
+  totals.add("decode directory", stages.directory);
+  totals.add("decode connectivity", stages.connectivity);
+  totals.add("decode positions", stages.regions - stages.connectivity);
+  totals.add("decode joins", stages.joins);
+  totals.add("decode all", stages.directory + stages.regions + stages.joins);
+  const std::size_t pack = packed.size();
   const auto cl10 = draco_encode(whole_grid_mesh(mesh, grid), 10, grid.bits).size();
   const double vertices = mesh.table.vertex_count(), boundary = encoded.directory.boundary_triangles;
   const std::string tag = std::to_string(grid.bits);
@@ -331,15 +346,21 @@ int run(const Options& options) {
       if (!totals.sum.contains("regions " + at)) continue;
       std::printf(
           "         regions of %s: /cl10 one by one %.3f, pack with joins and directory / cl10 whole %.3f, "
-          "joins %.3f bits a boundary triangle\n",
+          "directory %.2f %%, joins %.3f bits a boundary triangle\n",
           size, totals.ratio("regions " + at, "cl10 regions " + at),
-          totals.ratio("pack " + at, "cl10 for " + at), totals.ratio("joins " + at, "boundary " + at));
+          totals.ratio("pack " + at, "cl10 for " + at), 100 * totals.ratio("directory " + at, "pack " + at),
+          totals.ratio("joins " + at, "boundary " + at));
     }
     std::printf("         decode: %.2f x cl10, %.2f x cl7; encode %.2f x cl10\n",
                 totals.ratio("decode cl10 " + tag, "decode " + tag),
                 totals.ratio("decode cl7 " + tag, "decode " + tag),
                 totals.ratio("encode cl10 " + tag, "encode " + tag));
   }
+  std::printf("time to decode packs in default segmentation:");
+  for (const char* stage : {"directory", "connectivity", "positions", "joins"})
+    std::printf("  %s %.1f %%", stage, 100 * totals.ratio(std::string("decode ") + stage, "decode all"));
+  std::printf("\ntime to encode whole meshes:  connectivity %.1f %%\n",
+              100 * totals.ratio("encode connectivity", "encode all"));
   for (const auto& [name, costs] :
        {std::pair{"whole", &whole}, std::pair{"default segmentation", &segmented}}) {
     double all = 0;
