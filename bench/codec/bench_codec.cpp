@@ -23,6 +23,7 @@
 #include "bench/codec/lossless.h"
 #include "bench/codec/rivals.h"
 #include "bench/codec/stages.h"
+#include "bench/codec/two_cores.h"
 #include "bench/support/corpus.h"
 #include "bench/train/trainer.h"
 #include "client/decode/bundle_decoder.h"
@@ -255,6 +256,24 @@ void bench_default(const Model& model, const Grid& grid, const CodecTables& tabl
       welding.wrong_welds, 1e3 * welding.seconds);
 }
 
+/// In default segmentation, at 12 bits.
+void bench_two_cores(const Model& model, const Options& options, Totals& totals) {
+  const RepairedMesh& mesh = model.mesh;
+  const Segmentation segmentation = segment(mesh.table, mesh.positions, {}, serial_for());
+  const Partition partition =
+      make_partition(mesh.table, segmentation.region_of_vertex, segmentation.region_count);
+  const DecodingTimes times =
+      decode_on_two_cores(mesh, partition, make_grid(mesh.positions, 12), 3 * options.repeats);
+  totals.add("decode on one core", times.one_core);
+  totals.add("decode on two cores", times.two_cores);
+  std::printf(
+      "%-30s 12 decode and stitch %u regions: one core %.2f ms, two %.2f ms, %.2f times as fast; by the "
+      "clock %.2f and %.2f ms, %.2f times\n",
+      model.name.c_str(), partition.region_count, 1e3 * times.one_core, 1e3 * times.two_cores,
+      times.one_core / times.two_cores, 1e3 * times.one_thread_wall, 1e3 * times.two_threads_wall,
+      times.one_thread_wall / times.two_threads_wall);
+}
+
 void bench_lossless(const Model& model, const CodecTables& tables, Totals& totals) {
   const LosslessSizes sizes = lossless_sizes(model, tables);
   const auto ours = static_cast<double>(sizes.ours), xz = static_cast<double>(sizes.xz),
@@ -277,6 +296,7 @@ void bench_model(const Model& model, const CodecTables& tables, const Options& o
     }
     bench_default(model, grid, tables, totals, segmented);
   }
+  bench_two_cores(model, options, totals);
 }
 
 /// Names that mean the same shape in different files.
@@ -356,6 +376,8 @@ int run(const Options& options) {
                 totals.ratio("decode cl7 " + tag, "decode " + tag),
                 totals.ratio("encode cl10 " + tag, "encode " + tag));
   }
+  std::printf("decoding and stitching on two cores: %.2f times as fast as on one\n",
+              totals.ratio("decode on one core", "decode on two cores"));
   std::printf("time to decode packs in default segmentation:");
   for (const char* stage : {"directory", "connectivity", "positions", "joins"})
     std::printf("  %s %.1f %%", stage, 100 * totals.ratio(std::string("decode ") + stage, "decode all"));

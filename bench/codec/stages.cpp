@@ -29,7 +29,8 @@ double seconds_of(Work work) {
 bool decode_only_connectivity(std::span<const std::byte> part, std::uint32_t triangles,
                               const CodecTables& tables) {
   EntropyDecoder in(part.subspan(1), tables.region);
-  return triangles == 0 || decode_connectivity(in, triangles).has_value();
+  FanTable table;
+  return triangles == 0 || decode_connectivity(in, triangles, table).has_value();
 }
 
 void add_region(const Pack& pack, const RegionEntry& entry, const CodecTables& tables, DecodeStages& stages) {

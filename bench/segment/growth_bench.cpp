@@ -16,7 +16,7 @@
 #include <string>
 #include <unordered_map>
 
-#include "bench/segment/critical_path.h"
+#include "bench/support/critical_path.h"
 #include "common/samples/waterneck.h"
 #include "server/ingest/repair.h"
 #include "server/ingest/spatial_order.h"

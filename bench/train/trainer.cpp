@@ -119,8 +119,10 @@ std::int16_t fixed(double value, double scale) {
 void for_each_vertex(const TrainingRegion& region,
                      const std::function<void(GeometryWalk&, const Surroundings&, IntLanes)>& visit) {
   if (region.mesh.table.triangle_count() == 0) return;
-  GeometryWalk walk(region.mesh.table, region.mesh.table.vertex_count(), region.box.extent());
-  for (Surroundings around; walk.next_vertex(around);) {
+  const FanTable table(region.mesh.table);
+  GeometryWalk::Memory memory;
+  GeometryWalk walk(table, table.vertex_count(), region.box.extent(), memory);
+  for (Surroundings around{}; walk.next_vertex(around);) {
     const GridPoint& position = region.mesh.positions[walk.old_number()];
     if (!around.has_neighbours) {
       walk.place_first(position);
@@ -308,7 +310,7 @@ TrainedTables train(const std::vector<const Model*>& models) {
   for (const TrainingRegion& region : set.regions) {
     EntropyEncoder out;
     if (region.mesh.table.triangle_count() == 0) continue;
-    encode_positions(region.mesh.table, region.mesh.positions, region.box, tables.view(), out);
+    encode_positions(FanTable(region.mesh.table), region.mesh.positions, region.box, tables.view(), out);
     encode_turned_and_anchors(region.mesh, out);
     Sequence sequence = region.connectivity;
     sequence.insert(sequence.end(), out.tokens().begin(), out.tokens().end());

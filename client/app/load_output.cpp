@@ -108,12 +108,33 @@ std::string load_json(const LoadReport& report, const std::vector<Expectation>& 
   return json.dump(2) + "\n";
 }
 
+std::string load_table(const LoadSample& s) {
+  std::string text = fmt::format(
+      "{:.0f} s: {} clients, {:.0f} requests/s, {:.1f} MB/s, {:.1f} errors/s\n  {:<34} {:>9} {:>10} {:>10} "
+      "{:>10} {:>10}\n",
+      s.seconds, s.clients, s.requests_per_second, s.bytes_per_second / 1e6, s.errors_per_second,
+      "latency of the last moment, ms", "count", "p50", "p90", "p99", "max");
+  for (const StepSample& step : s.steps) {
+    text += fmt::format("  {:<34} {:>9} {:>10.3f} {:>10.3f} {:>10.3f} {:>10.3f}\n", step.label.substr(0, 34),
+                        step.count, milliseconds(step.p50), milliseconds(step.p90), milliseconds(step.p99),
+                        milliseconds(step.max));
+  }
+  return text;
+}
+
 std::string load_csv(const LoadReport& report) {
   std::string text =
-      "seconds,clients,requests_per_second,bytes_per_second,errors_per_second,mean_latency_ms\n";
+      "seconds,clients,requests_per_second,bytes_per_second,errors_per_second,mean_latency_ms,step,count,p50_"
+      "ms,p90_ms,"
+      "p99_ms,max_ms\n";
   for (const LoadSample& s : report.samples) {
-    text += fmt::format("{:.3f},{},{:.1f},{:.0f},{:.1f},{:.3f}\n", s.seconds, s.clients,
+    text += fmt::format("{:.3f},{},{:.1f},{:.0f},{:.1f},{:.3f},,,,,,\n", s.seconds, s.clients,
                         s.requests_per_second, s.bytes_per_second, s.errors_per_second, s.mean_latency_ms);
+    for (const StepSample& step : s.steps) {
+      text += fmt::format("{:.3f},{},,,,,\"{}\",{},{:.3f},{:.3f},{:.3f},{:.3f}\n", s.seconds, s.clients,
+                          step.label, step.count, milliseconds(step.p50), milliseconds(step.p90),
+                          milliseconds(step.p99), milliseconds(step.max));
+    }
   }
   return text;
 }

@@ -11,6 +11,11 @@
 namespace selvage {
 namespace {
 
+/// Whether the options say what to ask for to one who knows nothing of the model.
+bool is_settled(const SelectionOptions& options, const Selection& selection) {
+  return !options.max_error && !options.budget && selection.names.empty() && selection.name_levels.empty();
+}
+
 /// Names resolved, levels chosen.
 Result<Selection> settle(const Directory& directory, const SelectionOptions& options) {
   auto named = options.selection();
@@ -40,13 +45,6 @@ Result<Model> open_model(const std::string& source, const SourceOptions& options
 }
 
 Result<LoadedModel> load_selection(Model& model, const Selection& selection, std::stop_token stop) {
-  LoadedModel loaded;
-  loaded.directory = model.directory();
-  loaded.directory_bytes = model.directory_bytes();
-  auto parts = select_parts(loaded.directory, selection);
-  if (!parts) return forward_error(parts);
-  count_levels(*parts, loaded);
-
   ProgressBar bar;
   FetchEvents events;
   events.on_progress = [&](const FetchProgress& progress) { bar.show(progress); };
@@ -56,14 +54,29 @@ Result<LoadedModel> load_selection(Model& model, const Selection& selection, std
   auto fetched = fetch.wait();
   bar.wipe();
   if (!fetched) return forward_error(fetched);
+
+  LoadedModel loaded;
+  loaded.directory = model.directory();
+  loaded.directory_bytes = model.directory_bytes();
   loaded.fetched = std::move(*fetched);
+  auto parts = select_parts(loaded.directory, selection);
+  if (!parts) return forward_error(parts);
+  count_levels(*parts, loaded);
   return loaded;
 }
 
 Result<LoadedModel> load_model(const std::string& source, const SelectionOptions& selection,
                                const SourceOptions& options, std::stop_token stop) {
   // Malformed options are told before anything is opened.
-  if (auto ok = selection.selection(); !ok) return forward_error(ok);
+  auto said = selection.selection();
+  if (!said) return forward_error(said);
+  if (is_settled(selection, *said)) {
+    auto model_options = options.model_options();
+    if (!model_options) return forward_error(model_options);
+    auto model = Model::at(source, std::move(*model_options));
+    if (!model) return forward_error(model);
+    return load_selection(*model, *said, stop);
+  }
   const auto begin = std::chrono::steady_clock::now();
   auto model = open_model(source, options, stop);
   if (!model) return forward_error(model);

@@ -38,21 +38,23 @@ std::size_t terminal_width() {
 }  // namespace
 
 std::string progress_text(const FetchProgress& progress, double bytes_per_second, std::size_t width) {
+  const bool is_known = progress.of_parts > 0 || progress.parts == 0;
   const double share = progress.of_bytes == 0
-                           ? 1
+                           ? (is_known ? 1 : 0)
                            : static_cast<double>(progress.bytes) / static_cast<double>(progress.of_bytes);
   const auto filled = std::min(kBar, static_cast<std::size_t>(share * kBar));
   std::string text = fmt::format("[{}{}] ", std::string(filled, '#'), std::string(kBar - filled, '.'));
   const auto add = [&](const std::string& more) {
     if (text.size() + more.size() <= width) text += more;
   };
-  add(fmt::format("{} of {} regions", progress.regions, progress.of_regions));
-  add(fmt::format(", {} of {}", size_text(static_cast<double>(progress.bytes)),
-                  size_text(static_cast<double>(progress.of_bytes))));
+  const auto of = [&](const std::string& all) { return is_known ? " of " + all : std::string(); };
+  add(fmt::format("{}{} regions", progress.regions, of(std::to_string(progress.of_regions))));
+  add(fmt::format(", {}{}", size_text(static_cast<double>(progress.bytes)),
+                  of(size_text(static_cast<double>(progress.of_bytes)))));
   if (bytes_per_second > 0) {
     const double left = static_cast<double>(progress.of_bytes - std::min(progress.bytes, progress.of_bytes));
     add(fmt::format(", {}/s", size_text(bytes_per_second)));
-    add(", " + time_text(left / bytes_per_second));
+    if (is_known) add(", " + time_text(left / bytes_per_second));
   }
   return text.substr(0, width);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // selvage-load: many scripted clients against one server.
+#include <algorithm>
 #include <cstdio>
 
 #include <sys/resource.h>
@@ -45,14 +46,23 @@ void allow_many_files() {
   ::setrlimit(RLIMIT_NOFILE, &limit);
 }
 
-void show_sample(const LoadSample& s) {
-  static int lines = 0;
-  if (lines++ % 20 == 0)
-    fmt::print(stderr, "{:>8} {:>8} {:>11} {:>9} {:>9} {:>9}\n", "time s", "clients", "requests/s", "MB/s",
-               "mean ms", "errors/s");
-  fmt::print(stderr, "{:>8.1f} {:>8} {:>11.0f} {:>9.1f} {:>9.2f} {:>9.1f}\n", s.seconds, s.clients,
-             s.requests_per_second, s.bytes_per_second / 1e6, s.mean_latency_ms, s.errors_per_second);
-}
+/// The table of the moment, in the place of the one before.
+class LiveTable {
+ public:
+  void show(const LoadSample& sample) {
+    const std::string text = load_table(sample);
+    wipe();
+    fmt::print(stderr, "{}", text);
+    lines_ = std::ranges::count(text, '\n');
+  }
+  void wipe() {
+    if (lines_ > 0) fmt::print(stderr, "\033[{}A\033[J", lines_);
+    lines_ = 0;
+  }
+
+ private:
+  std::ptrdiff_t lines_ = 0;
+};
 
 struct Outputs {
   bool only_check = false;
@@ -81,12 +91,14 @@ Result<bool> run(const std::string& server, const std::string& script_path, Load
   }
   if (outputs.only_check) return fmt::print("{}: sound\n", script_path), true;
   options.server = *address;
+  LiveTable table;
   const bool is_live = ::isatty(STDERR_FILENO) == 1;
   const StopOnInterrupt interrupt;  // what was measured until then is reported
   options.on_sample = [&](const LoadSample& sample) {
-    if (is_live) show_sample(sample);
+    if (is_live) table.show(sample);
   };
   const LoadReport report = run_load(*script, options, interrupt.token());
+  table.wipe();
 
   if (!outputs.csv.empty()) {
     auto ok = replace_file(outputs.csv, load_csv(report));

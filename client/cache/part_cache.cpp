@@ -99,21 +99,26 @@ std::vector<CachedFile> list_files(const fs::path& folder) {
 }  // namespace
 
 PartCache::PartCache(fs::path folder, std::uint64_t max_bytes)
-    : folder_(std::move(folder)), max_bytes_(max_bytes) {}
+    : folder_(folder / "parts"), visited_(folder / "visited"), max_bytes_(max_bytes) {}
 
 PartCache::PartCache(PartCache&& other) noexcept
-    : folder_(std::move(other.folder_)), max_bytes_(other.max_bytes_), free_bytes_(other.free_bytes_) {}
+    : folder_(std::move(other.folder_)),
+      visited_(std::move(other.visited_)),
+      max_bytes_(other.max_bytes_),
+      free_bytes_(other.free_bytes_) {}
 
 Result<PartCache> PartCache::open(fs::path folder, std::uint64_t max_bytes) {
-  folder /= "parts";
+  PartCache cache(folder, max_bytes);
   std::error_code error;
-  fs::create_directories(folder, error);
-  if (!error && ::access(folder.c_str(), W_OK | X_OK) != 0) error.assign(errno, std::generic_category());
+  fs::create_directories(cache.folder_, error);
+  if (!error) fs::create_directories(cache.visited_, error);
+  if (!error && ::access(cache.folder_.c_str(), W_OK | X_OK) != 0)
+    error.assign(errno, std::generic_category());
   if (error) {
-    return fail(ErrorCode::Io, folder.string() + ": no cache can be kept there (" + error.message() +
+    return fail(ErrorCode::Io, cache.folder_.string() + ": no cache can be kept there (" + error.message() +
                                    "); choose another folder, or none");
   }
-  return PartCache(std::move(folder), max_bytes);
+  return cache;
 }
 
 std::optional<std::vector<std::byte>> PartCache::find(const PartRef& part) {
@@ -151,6 +156,15 @@ void PartCache::put(const Hash& hash, std::span<const std::byte> bytes) {
   std::error_code ignored;
   fs::create_directory(path.parent_path(), ignored);
   if (!is_written || ::rename(temporary.c_str(), path.c_str()) != 0) ::unlink(temporary.c_str());
+}
+
+bool PartCache::has_visited(const std::string& source) const {
+  return ::access((visited_ / hash_of(std::as_bytes(std::span(source))).to_hex()).c_str(), F_OK) == 0;
+}
+
+void PartCache::note_visit(const std::string& source) {
+  const fs::path path = visited_ / hash_of(std::as_bytes(std::span(source))).to_hex();
+  const File file(::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666));
 }
 
 /// Leaves a sixteenth free, so that the folder is looked through once for many parts.

@@ -14,6 +14,7 @@
 #include <mutex>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "common/base/result.h"
@@ -39,13 +40,18 @@ class PartCache {
   /// disk parts are fetched again. Where the bound is met, those go that were not used for longest.
   void put(const Hash& hash, std::span<const std::byte> bytes);
 
+  /// Whether parts of this source may be here: note_visit was called for it, by any process.
+  bool has_visited(const std::string& source) const;
+  void note_visit(const std::string& source);
+
   const std::filesystem::path& folder() const { return folder_; }
 
  private:
   PartCache(std::filesystem::path folder, std::uint64_t max_bytes);
   void evict();
 
-  std::filesystem::path folder_;
+  std::filesystem::path folder_;   ///< of the parts
+  std::filesystem::path visited_;  ///< of an empty file a source
   std::uint64_t max_bytes_;
   std::mutex mutex_;
   /// That may be written before the folder is looked through. Nothing at first: who only reads never looks.

@@ -31,7 +31,9 @@ struct Coarse {
       : coarse(magnitude),
         low_bits(size.raw_low_bits),
         bits(low_bits + ((magnitude | static_cast<unsigned>(low_bits)) != 0)) {}
-  std::int32_t with(std::uint32_t raw) const {
+  /// Its bits are the lowest of `more_bits`.
+  std::int32_t with(std::uint64_t more_bits) const {
+    const std::uint32_t raw = static_cast<std::uint32_t>(more_bits) & ((1u << bits) - 1);
     const auto magnitude = static_cast<std::int32_t>(coarse << low_bits | raw >> 1);
     const auto sign = static_cast<std::int32_t>(raw & 1);
     return (magnitude ^ -sign) + sign;
@@ -72,28 +74,28 @@ IntLanes along_axes(unsigned normal_axis, std::int32_t n, std::int32_t u, std::i
 void decode_position(Decoder& in, const Predictor& predictor, const Surroundings& around, const LaneBox& box,
                      GeometryWalk& walk, IntLanes& outside) {
   const IntLanes expected = predictor.expected_sizes(around);
+  walk.work_ahead<0>();
   const SizeClass first = predictor.size_class(around, expected, 0, 0, 0);
   const unsigned symbol_u = in.symbol(magnitude_model(0, around, first));
   const std::uint32_t coarse_u = decode_coarse(in, symbol_u, first);
   const std::int32_t log_u = coarse_log(symbol_u, first);
+  walk.work_ahead<1>();
   const SizeClass second = predictor.size_class(around, expected, 1, log_u, 0);
   const unsigned symbol_w = in.symbol(magnitude_model(1, around, second));
   const std::uint32_t coarse_w = decode_coarse(in, symbol_w, second);
   const std::int32_t log_w = coarse_log(symbol_w, second);
+  walk.work_ahead<2>();
   const SizeClass third = predictor.size_class(around, expected, 2, log_u, log_w);
   const unsigned symbol_last = in.symbol(magnitude_model(2, around, third));
   const std::uint32_t coarse_last = decode_coarse(in, symbol_last, third);
   const Coarse coarse[] = {{coarse_u, first}, {coarse_w, second}, {coarse_last, third}};
-  const int all_bits = coarse[0].bits + coarse[1].bits + coarse[2].bits;
-  const bool is_long = all_bits > 32;
-  in.expect_bits(is_long ? coarse[0].bits : all_bits);
-  const std::int32_t u = coarse[0].with(in.bits_at_hand(coarse[0].bits));
-  if (is_long) [[unlikely]]
-    in.expect_bits(coarse[1].bits);
-  const std::int32_t w = coarse[1].with(in.bits_at_hand(coarse[1].bits));
-  if (is_long) [[unlikely]]
-    in.expect_bits(coarse[2].bits);
-  const std::int32_t last = coarse[2].with(in.bits_at_hand(coarse[2].bits));
+  static_assert(EntropyDecoder::kPeek >= 2 * kMostResidualBits);
+  const std::uint64_t tangential_bits = in.peek_bits();
+  const std::int32_t u = coarse[0].with(tangential_bits);
+  const std::int32_t w = coarse[1].with(tangential_bits >> coarse[0].bits);
+  in.skip_bits(coarse[0].bits + coarse[1].bits);
+  const std::int32_t last = coarse[2].with(in.peek_bits());
+  in.skip_bits(coarse[2].bits);
   const std::int32_t tangent = predictor.tangent_residual(around, u, w);
   const IntLanes position = predictor.predict(around) + along_axes(around.normal_axis, last + tangent, u, w);
   const IntLanes within = clamped(position, box.low, box.high);
@@ -131,14 +133,15 @@ bool decode_anchors(Decoder& in, RegionMesh& mesh) {
 
 // In step with encode_positions.
 Result<void> decode_positions(Decoder& in, const GridBox& box, std::uint32_t vertices,
-                              const CodecTables& tables, RegionMesh& mesh) {
+                              const CodecTables& tables, const FanTable& table, GeometryWalk::Memory& memory,
+                              RegionMesh& mesh) {
   Blends blends;
   if (!decode_blends(in, blends)) return corrupt("impossible blends");
   const Predictor predictor(tables, blends);
   const LaneBox lane_box(box);
-  GeometryWalk walk(std::move(mesh.table), vertices, box.extent());
+  GeometryWalk walk(table, vertices, box.extent(), memory);
   IntLanes outside{};
-  for (Surroundings around; walk.next_vertex(around);) {
+  for (Surroundings around{}; walk.next_vertex(around);) {
     if (around.has_neighbours) {
       decode_position(in, predictor, around, lane_box, walk, outside);
       continue;
@@ -148,10 +151,11 @@ Result<void> decode_positions(Decoder& in, const GridBox& box, std::uint32_t ver
     walk.place_first(position);
   }
   if (!in.ok() || (outside[0] | outside[1] | outside[2]) != 0) return corrupt("a position outside the box");
-  if (!walk.is_complete() || walk.count() != vertices) return corrupt("not the promised number of vertices");
+  if (!walk.order().is_complete() || walk.count() != vertices)
+    return corrupt("not the promised number of vertices");
   mesh.positions = walk.positions();
-  mesh.table = walk.take_table();
-  mesh.loops = find_boundary_loops(mesh.table, walk.border_vertices());
+  mesh.table = walk.order().plain_table();
+  mesh.loops = find_boundary_loops(mesh.table, walk.order().border_vertices());
   return {};
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "common/base/result.h"
+#include "common/codec/geometry_walk.h"
 #include "common/codec/region_format.h"
 #include "common/codec/region_mesh.h"
 #include "common/coding/entropy_decoder.h"
@@ -10,10 +11,11 @@ namespace selvage {
 
 // The mirrors of server/encode/attribute_encoder.h.
 
-/// Numbers the vertices of `mesh.table`, which must be `vertices` fans of corners, in coding order; fills
-/// positions and loops.
+/// Numbers the vertices of `table`, which must be `vertices` fans of corners, in coding order; fills the
+/// mesh's table, positions and loops.
 Result<void> decode_positions(EntropyDecoder& in, const GridBox& box, std::uint32_t vertices,
-                              const CodecTables& tables, RegionMesh& mesh);
+                              const CodecTables& tables, const FanTable& table, GeometryWalk::Memory& memory,
+                              RegionMesh& mesh);
 /// `count` positions that no triangle connects; each must cost bits, or the caller has bounded it.
 Result<void> decode_loose_positions(EntropyDecoder& in, std::uint32_t count, const GridBox& box,
                                     RegionMesh& mesh);

@@ -26,13 +26,14 @@ bool read_list(EntropyDecoder& in, unsigned count_model, std::uint32_t limit, Re
 
 }  // namespace
 
-Result<CornerTable> decode_connectivity(EntropyDecoder& in, std::uint32_t triangles) {
+Result<void> decode_connectivity(EntropyDecoder& in, std::uint32_t triangles, FanTable& table) {
   // In step with encode_connectivity. Symbols beyond the region's own triangles belong to fans around virtual
   // vertices: each such triangle has an edge on a boundary loop, so there are fewer of them than there are
   // edges.
   const std::int64_t extra = unfold_sign(in.number(region_model::kExtraSymbols));
   if (extra < -std::int64_t{triangles} || extra > 3 * std::int64_t{triangles} || !in.ok())
     return corrupt("more symbols than triangles allow");
+  if (triangles + extra > FanTable::kMostTriangles) return corrupt("more triangles than a region may have");
   const auto symbols = static_cast<std::uint32_t>(triangles + extra);
 
   std::vector<HandleSplit> splits;
@@ -47,30 +48,29 @@ Result<CornerTable> decode_connectivity(EntropyDecoder& in, std::uint32_t triang
   });
   if (!splits_are_sound) return corrupt("impossible handle");
 
-  ClersGrower grower(std::move(splits), symbols);
+  ClersGrower grower(std::move(splits), symbols, table);
   for (std::uint32_t i = 0; i < symbols; ++i) {
     const unsigned symbol = in.symbol(region_model::kClers + grower.context());
     if (symbol >= kClersCount || !grower.grow(static_cast<Clers>(symbol)) || !in.ok())
       return corrupt("impossible symbol");
   }
-  for (std::uint32_t gate = 0; gate < grower.open_gates(); ++gate) {
+  const std::uint32_t components = grower.finish();
+  for (std::uint32_t gate = 0; gate < components; ++gate) {
     if (in.symbol(region_model::kIsClosed) != 0 && !grower.close(gate))
       return corrupt("a component that does not close");
   }
-  CornerTable grown = std::move(grower).take();
 
   std::vector<VertexId> virtual_vertices;
-  const bool virtuals_are_sound = read_list(in, region_model::kVirtualCount, grown.vertex_count(), [&] {
+  const bool virtuals_are_sound = read_list(in, region_model::kVirtualCount, table.vertex_count(), [&] {
     const std::uint64_t before = virtual_vertices.empty() ? 0 : virtual_vertices.back();
     const std::uint64_t v = before + in.number(region_model::kVirtualGap);
-    if (v >= grown.vertex_count()) return false;
+    if (v >= table.vertex_count()) return false;
     virtual_vertices.push_back(static_cast<VertexId>(v));
     return true;
   });
   if (!virtuals_are_sound) return corrupt("impossible virtual vertex");
-  auto connectivity = finish_connectivity(std::move(grown), virtual_vertices);
-  if (!connectivity) return corrupt("virtual vertices out of order");
-  return std::move(connectivity->table);
+  if (!drop_virtual_fans(table, virtual_vertices)) return corrupt("virtual vertices out of order");
+  return {};
 }
 
 }  // namespace selvage

@@ -33,14 +33,14 @@ std::uint64_t finest_boundary(const CoarseLevel& coarse) {
 }  // namespace
 
 std::uint64_t decode_memory_bound(const DecodeLimits& expected) {
-  const std::uint64_t elements = std::uint64_t{expected.vertices} + expected.triangles;
   const std::uint64_t boundary = expected.coarse ? finest_boundary(*expected.coarse) : 0;
   const std::uint64_t exact = expected.exact ? expected.vertices : 0;
-  return 65536 + 128 * elements + 192 * exact + 16 * boundary;
+  return 65536 + 448 * std::uint64_t{expected.triangles} + 128 * std::uint64_t{expected.vertices} +
+         192 * exact + 16 * boundary;
 }
 
-Result<RegionMesh> decode_region(std::span<const std::byte> bytes, const DecodeLimits& expected,
-                                 const CodecTables& tables) {
+Result<RegionMesh> RegionDecoder::decode(std::span<const std::byte> bytes, const DecodeLimits& expected,
+                                         const CodecTables& tables) {
   ByteReader reader(bytes);
   auto header = read_region_header(reader);
   if (!header) return forward_error(header);
@@ -58,11 +58,10 @@ Result<RegionMesh> decode_region(std::span<const std::byte> bytes, const DecodeL
   if (expected.coarse && finest_boundary(*expected.coarse) > most) return mismatch();
   RegionMesh mesh;
   if (expected.triangles > 0) {
-    auto table = decode_connectivity(in, expected.triangles);
-    if (!table) return forward_error(table);
-    if (table->triangle_count() != expected.triangles) return mismatch();
-    mesh.table = std::move(*table);
-    if (auto ok = decode_positions(in, box, expected.vertices, tables, mesh); !ok) return forward_error(ok);
+    if (auto ok = decode_connectivity(in, expected.triangles, table_); !ok) return forward_error(ok);
+    if (table_.triangle_count() != expected.triangles) return mismatch();
+    auto ok = decode_positions(in, box, expected.vertices, tables, table_, memory_, mesh);
+    if (!ok) return forward_error(ok);
   } else {
     if (!decode_loose_vertices(in, expected.vertices, mesh)) return mismatch();
     if (auto ok = decode_loose_positions(in, expected.vertices, box, mesh); !ok) return forward_error(ok);
@@ -83,6 +82,11 @@ Result<RegionMesh> decode_region(std::span<const std::byte> bytes, const DecodeL
   }
   if (auto ok = decode_turned_and_anchors(in, *header, mesh); !ok) return forward_error(ok);
   return mesh;
+}
+
+Result<RegionMesh> decode_region(std::span<const std::byte> bytes, const DecodeLimits& expected,
+                                 const CodecTables& tables) {
+  return RegionDecoder().decode(bytes, expected, tables);
 }
 
 }  // namespace selvage

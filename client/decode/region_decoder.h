@@ -8,6 +8,7 @@
 
 #include "common/base/result.h"
 #include "common/codec/codec_tables.h"
+#include "common/codec/geometry_walk.h"
 #include "common/codec/region_mesh.h"
 #include "common/mesh/grid.h"
 
@@ -37,5 +38,16 @@ std::uint64_t decode_memory_bound(const DecodeLimits& expected);
 /// that bundles refer to. `tables` must be those that it was coded with; only benchmarks pass others.
 Result<RegionMesh> decode_region(std::span<const std::byte> bytes, const DecodeLimits& expected,
                                  const CodecTables& tables = shipped_tables());
+
+/// The same for one region after another: keeps the memory that the largest one took. One for each thread.
+class RegionDecoder {
+ public:
+  Result<RegionMesh> decode(std::span<const std::byte> bytes, const DecodeLimits& expected,
+                            const CodecTables& tables = shipped_tables());
+
+ private:
+  FanTable table_;
+  GeometryWalk::Memory memory_;
+};
 
 }  // namespace selvage

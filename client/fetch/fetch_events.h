@@ -12,7 +12,8 @@
 
 namespace selvage {
 
-/// What has come of a fetch so far. Parts are regions, one level each, and bundles of joins.
+/// What has come of a fetch so far. Parts are regions, one level each, and bundles of joins. How much there
+/// is in all may become known on the way: the numbers are 0 before.
 struct FetchProgress {
   std::uint32_t regions = 0, of_regions = 0;  ///< decoded, and in all
   std::uint32_t parts = 0, of_parts = 0;      ///< arrived, and in all

@@ -54,7 +54,7 @@ Result<FetchPartsStats> fetch_parts(PartSource& source, GetRequest request, Miss
     is_refused = !taken;
     return taken;
   };
-  request.unfinished = std::make_shared<UnfinishedParts>();
+  if (!request.unfinished) request.unfinished = std::make_shared<UnfinishedParts>();
   Retrying retrying(options.retry, options.on_retry);
   while (!missing.empty()) {
     request.have = missing.held();
@@ -72,13 +72,80 @@ Result<FetchPartsStats> fetch_parts(PartSource& source, GetRequest request, Miss
   return stats;
 }
 
+Result<FetchPartsStats> open_and_fetch_parts(PartSource& source, FirstRequest request,
+                                             const OnGrowingManifest& on_manifest,
+                                             const PartSource::OnPart& on_part,
+                                             const FetchPartsOptions& options, std::stop_token stop) {
+  FetchPartsStats stats;
+  std::shared_ptr<Manifest> manifest;
+  std::set<PartId> taken;
+  bool is_refused = false;  // by one of the callbacks: no try will help
+  const auto open = [&](Manifest opened) -> Result<void> {
+    manifest = std::make_shared<Manifest>(std::move(opened));
+    auto ok = on_manifest(manifest);
+    is_refused = !ok;
+    return ok;
+  };
+  const auto take = [&](ReceivedPart part) -> Result<void> {
+    if (options.cache != nullptr) options.cache->put(manifest->directory.find(part.id)->hash, part.bytes);
+    if (part.id.kind == PartKind::Page) {
+      manifest->directory_bytes += part.bytes.size();
+      return read_page(manifest->directory, part.id.region, part.bytes);
+    }
+    taken.insert(part.id);
+    ++stats.parts;
+    stats.bytes += part.bytes.size();
+    auto ok = on_part(std::move(part));
+    is_refused = !ok;
+    return ok;
+  };
+  request.unfinished = std::make_shared<UnfinishedParts>();
+  Retrying retrying(options.retry, options.on_retry);
+  while (!manifest) {
+    auto outcome = source.open_and_get(request, open, take, stop);
+    if (outcome) return stats;
+    const bool is_last = is_refused || (!manifest && !options.retry_open);
+    if (is_last || !retrying.try_again(outcome.error(), stop)) return forward_error(outcome);
+    ++stats.retries;
+  }
+
+  // What came before the connection broke is there; the rest is fetched like that of any open model.
+  if (auto ok = complete(*manifest, source, options, stop); !ok) return forward_error(ok);
+  GetRequest rest{manifest, request.selection};
+  rest.urgency = request.urgency;
+  rest.dial = request.dial;
+  rest.unfinished = request.unfinished;
+  auto missing = MissingParts::of(manifest->directory, rest.selection);
+  if (!missing) return forward_error(missing);
+  for (const PartId& id : taken) missing->take(id);
+  auto fetched = fetch_parts(source, std::move(rest), std::move(*missing), on_part, options, std::move(stop));
+  if (!fetched) return fetched;
+  fetched->parts += stats.parts;
+  fetched->bytes += stats.bytes;
+  fetched->retries += stats.retries;
+  return fetched;
+}
+
+Result<void> complete(Manifest& manifest, PartSource& source, const FetchPartsOptions& options,
+                      std::stop_token stop) {
+  if (manifest.directory.is_complete()) return {};
+  auto whole = open_with_retries(source, options, std::move(stop));
+  if (!whole) return forward_error(whole);
+  if ((*whole)->pack_id != manifest.pack_id) {
+    return fail(ErrorCode::ModelChanged, "'" + manifest.name + "' is another pack now; open it again");
+  }
+  complete(manifest.directory, (*whole)->directory);
+  manifest.directory_bytes += (*whole)->directory_bytes;
+  return {};
+}
+
 Result<std::shared_ptr<const Manifest>> open_with_retries(PartSource& source,
                                                           const FetchPartsOptions& options,
                                                           std::stop_token stop) {
   Retrying retrying(options.retry, options.on_retry);
   for (;;) {
     auto manifest = source.open(stop);
-    if (manifest || !retrying.try_again(manifest.error(), stop)) return manifest;
+    if (manifest || !options.retry_open || !retrying.try_again(manifest.error(), stop)) return manifest;
   }
 }
 

@@ -4,6 +4,8 @@
 // still missing when a connection breaks.
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <stop_token>
 
 #include "client/cache/part_cache.h"
@@ -16,6 +18,7 @@ namespace selvage {
 struct FetchPartsOptions {
   PartCache* cache = nullptr;  ///< borrowed; null: none
   RetryPolicy retry;
+  bool retry_open = true;  ///< false: what fails before anything has come is the last word
   Retrying::OnRetry on_retry = {};
 };
 
@@ -37,6 +40,21 @@ Result<FetchPartsStats> fetch_parts(PartSource& source, GetRequest request, Miss
 /// The same with nothing there yet.
 Result<FetchPartsStats> fetch_parts(PartSource& source, GetRequest request, const PartSource::OnPart& on_part,
                                     const FetchPartsOptions& options, std::stop_token stop = {});
+
+/// Also opens the model, in one round trip where the source can: for a first look at one of which the cache
+/// knows nothing. Every part of the request's selection reaches `on_part` once. `on_manifest` is called once,
+/// before that, with a manifest that grows: pages are read into its directory between two calls of `on_part`,
+/// the ones that list a part before it; some may be missing in the end. A first failure to connect ends it,
+/// unless `retry_open`.
+using OnGrowingManifest = std::function<Result<void>(std::shared_ptr<Manifest>)>;
+Result<FetchPartsStats> open_and_fetch_parts(PartSource& source, FirstRequest request,
+                                             const OnGrowingManifest& on_manifest,
+                                             const PartSource::OnPart& on_part,
+                                             const FetchPartsOptions& options, std::stop_token stop = {});
+
+/// Fills in what the directory of a manifest lacks. ModelChanged if the source has another pack by now.
+Result<void> complete(Manifest& manifest, PartSource& source, const FetchPartsOptions& options,
+                      std::stop_token stop = {});
 
 /// The same for open().
 Result<std::shared_ptr<const Manifest>> open_with_retries(PartSource& source,

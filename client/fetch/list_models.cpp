@@ -6,7 +6,9 @@
 namespace selvage {
 
 Result<std::vector<ModelInfo>> list_models(const std::string& server, const ClientOptions& options) {
-  auto client = connect_to(server, options);
+  ClientOptions at_once = options;
+  at_once.await_greeting = false;
+  auto client = connect_to(server, std::move(at_once));
   if (!client) return forward_error(client);
   auto models = client->list();
   if (!models) return forward_error(models, server);

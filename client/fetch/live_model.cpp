@@ -2,163 +2,112 @@
 #include "client/fetch/live_model.h"
 
 #include <algorithm>
-#include <mutex>
 #include <utility>
 
-#include "client/fetch/decoding.h"
+#include "client/fetch/showing.h"
 #include "common/pack/selection.h"
 
 namespace selvage {
-namespace {
-
-using Clock = std::chrono::steady_clock;
-
-bool is_empty(const StitchUpdate& update) {
-  return update.vertices.empty() && update.patches.empty() && update.removed_vertices.empty();
+LiveModel::LiveModel(std::shared_ptr<Manifest> manifest, PartSource& source, ShowOptions options)
+    : LiveModel(source, std::move(options)) {
+  hold(std::move(manifest));
 }
 
-/// One show(): what it has brought so far, and who is told of it.
-class Showing {
- public:
-  Showing(const Directory& directory, PartCollector& collector, const MissingParts& missing,
-          const FetchEvents& events)
-      : directory_(directory), collector_(collector), events_(events) {
-    for (const PartId& id : missing.ids()) {
-      ++progress_.of_parts;
-      progress_.of_bytes += directory.find(id)->size;
-      if (id.kind == PartKind::Region && id.region != kLooseRegion) ++progress_.of_regions;
-    }
-  }
+LiveModel::LiveModel(PartSource& source, ShowOptions options)
+    : source_(source), options_(std::move(options)) {}
 
-  void note_arrival(const ReceivedPart& part) {
-    {
-      const std::scoped_lock lock(mutex_);
-      ++progress_.parts;
-      progress_.bytes += part.bytes.size();
-    }
-    tell_progress();
-  }
-
-  /// On whatever thread has decoded the part.
-  void note_decoded(const PartId& id) {
-    const auto now = Clock::now();
-    {
-      const std::scoped_lock lock(mutex_);
-      if (id.kind == PartKind::Bundle) {
-        bundles_.push_back(id.region);
-      } else {
-        if (!first_region_) first_region_ = now;
-        if (id.region != kLooseRegion) ++progress_.regions;
-      }
-    }
-    if (id.kind == PartKind::Region) tell_region(id);
-    tell_update(now);
-  }
-
-  void tell_retry(const Error& error, std::chrono::milliseconds delay) {
-    const std::scoped_lock lock(telling_);
-    if (events_.on_retry) events_.on_retry(error, delay);
-  }
-
-  /// When nothing is decoded any more.
-  void tell_the_rest() {
-    tell_progress();
-    if (!events_.on_update) return;
-    const StitchUpdate update = collector_.take_update();
-    if (!is_empty(update)) events_.on_update(update);
-  }
-
-  const std::vector<RegionId>& bundles() const { return bundles_; }
-  Shown shown(const FetchPartsStats& fetched) const { return {fetched, progress_.regions, first_region_}; }
-
- private:
-  void tell_progress() {
-    if (!events_.on_progress) return;
-    const std::scoped_lock lock(telling_);
-    FetchProgress progress;
-    {
-      const std::scoped_lock inner(mutex_);
-      progress = progress_;
-    }
-    events_.on_progress(progress);
-  }
-
-  void tell_region(const PartId& id) {
-    if (!events_.on_region) return;
-    const LevelEntry& entry = directory_.regions[id.region].levels[id.level];
-    const std::scoped_lock lock(telling_);
-    events_.on_region({id.region, id.level, entry.vertices, entry.triangles});
-  }
-
-  /// Whoever comes while another tells just goes on: the next update will have it.
-  void tell_update(Clock::time_point now) {
-    if (!events_.on_update) return;
-    const std::unique_lock lock(telling_, std::try_to_lock);
-    if (!lock || (last_update_ && now - *last_update_ < events_.update_interval)) return;
-    const StitchUpdate update = collector_.take_update();
-    if (!is_empty(update)) events_.on_update(update);
-    last_update_ = Clock::now();
-  }
-
-  const Directory& directory_;
-  PartCollector& collector_;
-  const FetchEvents& events_;
-
-  std::mutex mutex_;  ///< of what follows
-  FetchProgress progress_;
-  std::vector<RegionId> bundles_;
-  std::optional<Clock::time_point> first_region_;
-
-  std::mutex telling_;  ///< held while an event runs; taken before mutex_
-  std::optional<Clock::time_point> last_update_;
-};
-
-}  // namespace
-
-LiveModel::LiveModel(std::shared_ptr<const Manifest> manifest, PartSource& source, ShowOptions options)
-    : manifest_(std::move(manifest)),
-      source_(source),
-      options_(std::move(options)),
-      collector_(manifest_->directory) {}
+void LiveModel::hold(std::shared_ptr<Manifest> manifest) {
+  manifest_ = std::move(manifest);
+  collector_ = std::make_unique<PartCollector>(manifest_->directory);
+}
 
 Result<Shown> LiveModel::show(const Selection& selection, const FetchEvents& events, std::stop_token stop,
                               std::shared_ptr<UrgencyDial> dial) {
-  auto wanted = to_fetch(selection);
+  std::optional<Showing> showing;
+  FetchPartsOptions options = options_.fetch;
+  options.on_retry = [&](const Error& error, auto delay) {
+    if (showing) return showing->tell_retry(error, delay);
+    if (events.on_retry) events.on_retry(error, delay);
+  };
+  const auto begin = [&]() -> Showing& {
+    return showing.emplace(directory(), *collector_, events, options_.threads);
+  };
+  FirstRequest request{selection};
+  request.dial = std::move(dial);
+  const bool has_names = !selection.names.empty() || !selection.name_levels.empty();
+  auto fetched = manifest_ || has_names ? fetch_more(std::move(request), begin, options, stop)
+                                        : fetch_first(std::move(request), begin, options, stop);
+  if (!showing) return forward_error(fetched);
+  auto decoded = showing->finish(fetched.has_value());
+  bundles_.insert(showing->bundles().begin(), showing->bundles().end());
+  if (!decoded) return forward_error(decoded);
+  if (!fetched) return forward_error(fetched);
+  return Shown{*fetched, showing->regions(), showing->first_region()};
+}
+
+/// Nothing is known of the model: what there is to show is known once the pages are there that list it.
+Result<FetchPartsStats> LiveModel::fetch_first(FirstRequest request, const OnShowing& begin,
+                                               const FetchPartsOptions& options, std::stop_token stop) {
+  Showing* showing = nullptr;
+  const Selection selection = request.selection;
+  std::ptrdiff_t pages_seen = -1;  // none once everything is expected
+  const auto expect = [&] {
+    const auto pages = std::ranges::count_if(directory().pages, &PageEntry::is_read);
+    if (pages == pages_seen) return;
+    pages_seen = pages;
+    if (pages_for(selection) == Pages::All && !directory().is_complete()) return;
+    auto missing = MissingParts::of(directory(), selection);
+    if (missing) showing->expect(*missing);
+  };
+  const auto on_manifest = [&](std::shared_ptr<Manifest> manifest) -> Result<void> {
+    hold(std::move(manifest));
+    showing = &begin();
+    return {};
+  };
+  const auto on_part = [&](ReceivedPart part) {
+    expect();
+    return showing->add(std::move(part));
+  };
+  return open_and_fetch_parts(source_, std::move(request), on_manifest, on_part, options, std::move(stop));
+}
+
+Result<FetchPartsStats> LiveModel::fetch_more(FirstRequest request, const OnShowing& begin,
+                                              const FetchPartsOptions& options, std::stop_token stop) {
+  if (!manifest_) {
+    auto opened = open_with_retries(source_, options, stop);
+    if (!opened) return forward_error(opened);
+    hold(std::make_shared<Manifest>(**opened));
+  }
+  if (auto ok = complete(*manifest_, source_, options, stop); !ok) return forward_error(ok);
+  auto wanted = to_fetch(request.selection);
   if (!wanted) return forward_error(wanted);
   auto missing = missing_of(*wanted);
   if (!missing) return forward_error(missing);
-
-  Showing showing(directory(), collector_, *missing, events);
-  Decoding decoding(collector_, options_.threads, [&](const PartId& id) { showing.note_decoded(id); });
-  FetchPartsOptions options = options_.fetch;
-  options.on_retry = [&](const Error& error, auto delay) { showing.tell_retry(error, delay); };
-  GetRequest request{manifest_, std::move(*wanted)};
-  request.dial = std::move(dial);
-  const auto on_part = [&](ReceivedPart part) {
-    showing.note_arrival(part);
-    return decoding.add(std::move(part));
-  };
-  auto fetched =
-      fetch_parts(source_, std::move(request), std::move(*missing), on_part, options, std::move(stop));
-  if (!fetched) decoding.drop_the_rest();
-  auto decoded = decoding.finish();
-  bundles_.insert(showing.bundles().begin(), showing.bundles().end());
-  showing.tell_the_rest();
-  if (!decoded) return forward_error(decoded);
-  if (!fetched) return forward_error(fetched);
-  return showing.shown(*fetched);
+  Showing& showing = begin();
+  showing.expect(*missing);
+  GetRequest get{manifest_, std::move(*wanted)};
+  get.dial = std::move(request.dial);
+  const auto on_part = [&](ReceivedPart part) { return showing.add(std::move(part)); };
+  return fetch_parts(source_, std::move(get), std::move(*missing), on_part, options, std::move(stop));
 }
 
 void LiveModel::hide(std::span<const RegionId> regions,
                      const std::function<void(const StitchUpdate&)>& on_update) {
-  for (const RegionId region : regions) collector_.remove_region(region);
-  const StitchUpdate update = collector_.take_update();
-  if (!is_empty(update)) on_update(update);
+  if (!collector_) return;
+  for (const RegionId region : regions) collector_->remove_region(region);
+  const StitchUpdate update = collector_->take_update();
+  if (!update.empty()) on_update(update);
 }
+
+std::optional<std::uint8_t> LiveModel::level_of(RegionId region) const {
+  return collector_ ? collector_->level_of(region) : std::nullopt;
+}
+
+StitchedMesh LiveModel::mesh() const { return collector_ ? collector_->mesh() : StitchedMesh(); }
 
 bool LiveModel::is_shown(const PartId& id) const {
   if (id.kind == PartKind::Bundle) return bundles_.contains(id.region);
-  return collector_.level_of(id.region) == id.level;
+  return collector_->level_of(id.region) == id.level;
 }
 
 Result<MissingParts> LiveModel::missing_of(const Selection& selection) const {
@@ -182,7 +131,7 @@ Result<Selection> LiveModel::to_fetch(const Selection& selection) const {
   const auto is_elsewhere = [&](RegionId region) {
     return region != kLooseRegion && !std::ranges::binary_search(*selected, region);
   };
-  if (std::ranges::none_of(collector_.regions(), is_elsewhere)) return wanted;
+  if (std::ranges::none_of(collector_->regions(), is_elsewhere)) return wanted;
 
   if (wanted->joins == Joins::Closure) wanted->joins = Joins::All;
   auto parts = select_parts(directory(), *wanted);

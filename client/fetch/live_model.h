@@ -29,6 +29,8 @@
 
 namespace selvage {
 
+class Showing;
+
 /// How show() gets at parts.
 struct ShowOptions {
   FetchPartsOptions fetch;  ///< its on_retry is not used: see FetchEvents
@@ -46,7 +48,9 @@ struct Shown {
 class LiveModel {
  public:
   /// `source`, and the cache of the options, are borrowed.
-  LiveModel(std::shared_ptr<const Manifest> manifest, PartSource& source, ShowOptions options = {});
+  LiveModel(std::shared_ptr<Manifest> manifest, PartSource& source, ShowOptions options = {});
+  /// Of a model that the first show() opens, in the same round trip where the source can.
+  explicit LiveModel(PartSource& source, ShowOptions options = {});
 
   /// Brings the selected regions to the levels that the selection says, whatever they are at, and leaves the
   /// others as they are. Returns when all are there. After an error, and after `stop`, each region is at its
@@ -61,21 +65,32 @@ class LiveModel {
   void hide(std::span<const RegionId> regions, const std::function<void(const StitchUpdate&)>& on_update);
 
   /// Nothing if the region is not there.
-  std::optional<std::uint8_t> level_of(RegionId region) const { return collector_.level_of(region); }
+  std::optional<std::uint8_t> level_of(RegionId region) const;
   /// Built anew: linear in what is shown.
-  StitchedMesh mesh() const { return collector_.mesh(); }
-  const Directory& directory() const { return manifest_->directory; }
+  StitchedMesh mesh() const;
+  /// Null until the model was opened. The directory has what the regions shown need, and more if it came; it
+  /// does not change but in show().
+  const std::shared_ptr<Manifest>& manifest() const { return manifest_; }
+  const Directory& directory() const { return manifest_->directory; }  ///< once there is a manifest
 
  private:
+  /// A fetch that tells `showing`, which it makes once there is a directory.
+  using OnShowing = std::function<Showing&()>;
+
+  void hold(std::shared_ptr<Manifest> manifest);
+  Result<FetchPartsStats> fetch_first(FirstRequest request, const OnShowing& begin,
+                                      const FetchPartsOptions& options, std::stop_token stop);
+  Result<FetchPartsStats> fetch_more(FirstRequest request, const OnShowing& begin,
+                                     const FetchPartsOptions& options, std::stop_token stop);
   bool is_shown(const PartId& id) const;
   Result<Selection> to_fetch(const Selection& selection) const;
   Result<MissingParts> missing_of(const Selection& selection) const;
 
-  std::shared_ptr<const Manifest> manifest_;
   PartSource& source_;
   const ShowOptions options_;
-  PartCollector collector_;
-  std::set<RegionId> bundles_;  ///< whose bundle is in the collector
+  std::shared_ptr<Manifest> manifest_;
+  std::unique_ptr<PartCollector> collector_;  ///< once there is a manifest
+  std::set<RegionId> bundles_;                ///< whose bundle is in the collector
 };
 
 }  // namespace selvage

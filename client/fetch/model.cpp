@@ -15,14 +15,31 @@ struct Model::State {
   ModelOptions options;
   std::unique_ptr<PartSource> source;
   std::optional<PartCache> cache;
-  std::shared_ptr<const Manifest> manifest;
+  std::shared_ptr<Manifest> manifest;  ///< null until the model was opened
 
+  FetchPartsOptions fetch_options() {
+    FetchPartsOptions fetch;
+    fetch.cache = cache ? &*cache : nullptr;
+    fetch.retry = options.retry;
+    fetch.retry_open = options.retry_open;
+    return fetch;
+  }
   LiveModel live() {
-    ShowOptions show;
-    show.fetch.cache = cache ? &*cache : nullptr;
-    show.fetch.retry = options.retry;
-    show.threads = options.decode_threads;
-    return LiveModel(manifest, *source, std::move(show));
+    const ShowOptions show{fetch_options(), options.decode_threads};
+    return manifest ? LiveModel(manifest, *source, show) : LiveModel(*source, show);
+  }
+  /// Errors of files name them already.
+  Error named(Error error) const {
+    if (!error.message.starts_with(name)) error.message = name + ": " + error.message;
+    return error;
+  }
+  /// Parts that are cached can only be left out of a request by who has the directory.
+  bool is_worth_opening_first() const { return !manifest && cache && cache->has_visited(name); }
+  Result<void> open(std::stop_token stop) {
+    auto opened = open_with_retries(*source, fetch_options(), std::move(stop));
+    if (!opened) return forward_error(opened);
+    manifest = std::make_shared<Manifest>(**opened);
+    return {};
   }
 };
 
@@ -34,7 +51,7 @@ class Fetch::Work {
         dial_(std::make_shared<UrgencyDial>(urgency)),
         thread_([this, selection = std::move(selection)](const std::stop_token& stop) {
           outcome_ = run(selection, stop);
-          if (!outcome_) outcome_->error().message = model_.name + ": " + outcome_->error().message;
+          if (!*outcome_) outcome_ = tl::unexpected(model_.named(std::move(outcome_->error())));
         }) {}
 
   void cancel() { thread_.request_stop(); }
@@ -48,9 +65,15 @@ class Fetch::Work {
  private:
   Result<FetchedModel> run(const Selection& selection, const std::stop_token& stop) {
     const auto begin = Clock::now();
+    if (model_.is_worth_opening_first()) {
+      if (auto ok = model_.open(stop); !ok) return forward_error(ok);
+    }
+    // Before anything comes: what an interrupted fetch leaves in the cache is of use to the next.
+    if (model_.cache) model_.cache->note_visit(model_.name);
     LiveModel live = model_.live();
     auto shown = live.show(selection, events_, stop, dial_);
     if (!shown) return forward_error(shown);
+    model_.manifest = live.manifest();
     FetchedModel model;
     model.mesh = live.mesh();
     model.regions = shown->regions;
@@ -71,7 +94,7 @@ class Fetch::Work {
   std::jthread thread_;  // last: it uses the rest
 };
 
-Result<Model> Model::open(const std::string& source, ModelOptions options, std::stop_token stop) {
+Result<Model> Model::at(const std::string& source, ModelOptions options) {
   auto state = std::make_unique<State>();
   state->name = source;
   auto parts = open_source(source, options.connection);
@@ -82,17 +105,16 @@ Result<Model> Model::open(const std::string& source, ModelOptions options, std::
     if (!cache) return forward_error(cache);
     state->cache.emplace(std::move(*cache));
   }
-  FetchPartsOptions retrying;
-  if (options.retry_open) {
-    retrying.retry = options.retry;
-  } else {
-    retrying.retry.give_up_after = std::chrono::milliseconds(0);
-  }
-  auto manifest = open_with_retries(*state->source, retrying, stop);
-  if (!manifest) return forward_error(manifest, parts->is_remote ? std::string_view(source) : "");
-  state->manifest = std::move(*manifest);
   state->options = std::move(options);
   return Model(std::move(state));
+}
+
+Result<Model> Model::open(const std::string& source, ModelOptions options, std::stop_token stop) {
+  auto model = at(source, std::move(options));
+  if (!model) return model;
+  auto opened = model->state_->open(std::move(stop));
+  if (!opened) return tl::unexpected(model->state_->named(std::move(opened.error())));
+  return model;
 }
 
 Model::Model(std::unique_ptr<State> state) : state_(std::move(state)) {}

@@ -80,13 +80,18 @@ class Model {
   /// `source` is HOST:PORT/MODEL for a selvage server, http://... or https://... for a pack on a web server,
   /// or a pack's path. Returns once the model's directory is there. Errors name the source.
   static Result<Model> open(const std::string& source, ModelOptions options = {}, std::stop_token stop = {});
+  /// The same without touching the network: the first fetch opens the model, in the same round trip where the
+  /// source can, unless its selection is by name. For whoever knows what he wants before he has seen it.
+  static Result<Model> at(const std::string& source, ModelOptions options = {});
   ~Model();
   Model(Model&&) noexcept;
   Model& operator=(Model&&) noexcept;
 
-  /// Regions with their boxes, sizes and neighbours, names of parts, the grid.
+  /// Regions with their boxes, sizes and neighbours, names of parts, the grid. Of a model from at(), once a
+  /// fetch has succeeded: then it has at least the regions fetched (Directory::has); the next fetch completes
+  /// it.
   const Directory& directory() const;
-  std::uint64_t directory_bytes() const;
+  std::uint64_t directory_bytes() const;  ///< of it that came
   /// The selection's names are looked up here. `urgency` as in Fetch::reprioritise. The fetch must go before
   /// the model does.
   Fetch fetch(Selection selection, FetchEvents events = {}, std::uint8_t urgency = 3);

@@ -14,10 +14,15 @@ namespace selvage {
 class ServerSource final : public PartSource {
  public:
   ServerSource(HostPort server, std::string model, ClientOptions options)
-      : server_(std::move(server)), model_(std::move(model)), options_(std::move(options)) {}
+      : server_(std::move(server)), model_(std::move(model)), options_(std::move(options)) {
+    options_.await_greeting = false;  // the first request travels with ours
+  }
 
   Result<std::shared_ptr<const Manifest>> open(std::stop_token stop = {}) override;
   Result<GetStats> get(GetRequest request, const OnPart& on_part, std::stop_token stop = {}) override;
+  /// In one round trip, the greeting included.
+  Result<GetStats> open_and_get(FirstRequest request, const OnManifest& on_manifest, const OnPart& on_part,
+                                std::stop_token stop = {}) override;
 
  private:
   Result<void> connect(const std::stop_token& stop);

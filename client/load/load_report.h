@@ -30,12 +30,20 @@ struct KindReport {
   void merge(const KindReport& other);
 };
 
+/// How long one step took since the sample before.
+struct StepSample {
+  std::string label;
+  std::uint64_t count = 0;
+  LatencyHistogram::Duration p50{}, p90{}, p99{}, max{};
+};
+
 /// The load at one moment, for tables and charts.
 struct LoadSample {
   double seconds = 0;         ///< from the start of the test
   std::uint32_t clients = 0;  ///< connected
   double requests_per_second = 0, bytes_per_second = 0, errors_per_second = 0;
   double mean_latency_ms = 0;
+  std::vector<StepSample> steps;  ///< that were answered since the sample before, by label
 };
 
 struct LoadReport {

@@ -59,7 +59,7 @@ void hire(std::vector<std::unique_ptr<Crew>>& crews, const LoadScript& script, c
 /// Turns counters into samples, a moment after the other.
 class Sampler {
  public:
-  Sampler(const LiveCounters& live, Clock::time_point begin) : live_(live), begin_(begin), last_(begin) {}
+  Sampler(LiveCounters& live, Clock::time_point begin) : live_(live), begin_(begin), last_(begin) {}
 
   LoadSample take() {
     const auto now = Clock::now();
@@ -74,6 +74,10 @@ class Sampler {
     sample.errors_per_second = static_cast<double>(counts.errors - counts_.errors) / seconds;
     if (requests > 0)
       sample.mean_latency_ms = static_cast<double>(counts.latency_us - counts_.latency_us) / 1e3 / requests;
+    for (const auto& [label, latency] : live_.latency.take()) {
+      sample.steps.push_back({label, latency.count(), latency.percentile(0.5), latency.percentile(0.9),
+                              latency.percentile(0.99), latency.max()});
+    }
     last_ = now;
     counts_ = counts;
     return sample;
@@ -85,7 +89,7 @@ class Sampler {
   };
   Counts read() const { return {live_.requests, live_.bytes, live_.errors, live_.latency_us}; }
 
-  const LiveCounters& live_;
+  LiveCounters& live_;
   const Clock::time_point begin_;
   Clock::time_point last_;
   Counts counts_;

@@ -27,6 +27,16 @@ Result<std::vector<std::byte>> read_file(const std::filesystem::path& path) {
 
 }  // namespace
 
+void LiveLatency::add(const std::string& label, LatencyHistogram::Duration latency) {
+  const std::scoped_lock lock(mutex_);
+  by_label_[label].add(latency);
+}
+
+std::map<std::string, LatencyHistogram> LiveLatency::take() {
+  const std::scoped_lock lock(mutex_);
+  return std::exchange(by_label_, {});
+}
+
 ScriptedClient::ScriptedClient(const ClientKind& kind, ClientOptions options, HostPort server,
                                LoadThread& thread, std::uint32_t number)
     : kind_(kind),
@@ -100,6 +110,7 @@ asio::awaitable<bool> ScriptedClient::run_round(Clock::duration lateness) {
     }
     const auto latency = Clock::now() - begin + lateness;
     report_.latency[step.label].add(latency);
+    thread_.live.latency.add(step.label, latency);
     ++report_.requests;
     ++thread_.live.requests;
     thread_.live.latency_us +=

@@ -6,7 +6,9 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <random>
+#include <string>
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/thread_pool.hpp>
@@ -18,8 +20,20 @@
 
 namespace selvage {
 
+/// Latency by step since it was last taken. Thread-safe.
+class LiveLatency {
+ public:
+  void add(const std::string& label, LatencyHistogram::Duration latency);
+  std::map<std::string, LatencyHistogram> take();
+
+ private:
+  std::mutex mutex_;
+  std::map<std::string, LatencyHistogram> by_label_;
+};
+
 /// What the live table shows; written by all clients.
 struct LiveCounters {
+  LiveLatency latency;
   std::atomic<std::uint32_t> connected = 0;
   std::atomic<std::uint64_t> requests = 0, bytes = 0, errors = 0, latency_us = 0;
 };

@@ -12,6 +12,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -78,18 +79,27 @@ class PublishReader final : public AnswerReader {
 
 class ManifestReader final : public AnswerReader {
  public:
-  ManifestReader(std::string name, std::uint64_t max_bytes) : name_(std::move(name)), max_bytes_(max_bytes) {}
-  Result<bool> on_frame(const Frame& frame) override;
   /// LimitExceeded, or BadStream if the bytes are no directory or not that of the pack they are said to be
   /// of.
-  Result<Manifest> manifest() const;
+  using OnManifest = std::function<Result<void>(Manifest)>;
+
+  /// `on_manifest` is called once, with the answer's last frame; an error of it is that of the request.
+  ManifestReader(const OpenModel& asked, std::uint64_t max_bytes, OnManifest on_manifest)
+      : name_(asked.name),
+        summary_only_(asked.summary_only),
+        max_bytes_(max_bytes),
+        on_manifest_(std::move(on_manifest)) {}
+  Result<bool> on_frame(const Frame& frame) override;
 
  private:
   Result<bool> on_begin(const Frame& frame);
   Result<bool> on_data(const Frame& frame);
+  Result<Manifest> manifest() const;
 
   std::string name_;
+  bool summary_only_;
   std::uint64_t max_bytes_;
+  OnManifest on_manifest_;
   std::optional<ManifestBegin> begin_;
   std::vector<std::byte> bytes_;
 };
@@ -99,8 +109,15 @@ class PartsReader final : public AnswerReader {
   /// Called for every whole part that matches its hash, in the order of arrival.
   using OnPart = std::function<void(const PartId&, std::vector<std::byte>)>;
 
-  /// What the request asks for, by the same rule as the server's: an error here would be one there.
+  /// What the request asks for, by the same rule as the server's: an error here would be one there. The
+  /// directory must be complete.
   static Result<PartsReader> for_request(const GetRequest& request, OnPart on_part);
+
+  /// For a request that travels with the one that opens the model: pages of the directory come among the
+  /// parts, each before what it lists. begin() must come before the first part does.
+  PartsReader(const FirstRequest& request, OnPart on_part);
+  /// `directory` as the summary gives it.
+  void begin(Directory directory);
 
   /// For measuring servers with little client work: parts are then only counted, their hashes not computed.
   void skip_hashes() { checks_hashes_ = false; }
@@ -112,24 +129,32 @@ class PartsReader final : public AnswerReader {
   void leave_unfinished();
 
  private:
-  struct Expected {
+  struct Current {
     PartId id;
-    const PartRef* ref;  ///< in the manifest's directory
-    bool begun = false;
+    const PartRef* ref;  ///< in the directory
   };
 
-  PartsReader(const GetRequest& request, OnPart on_part);
+  PartsReader(const GetRequest& request, std::uint32_t expected, OnPart on_part);
   Result<bool> on_begin(const Frame& frame);
   Result<bool> on_data(const Frame& frame);
   Result<bool> on_end(const Frame& frame);
+  const PartRef* find_asked_for(const PartId& id) const;
+  Result<void> deliver();
 
-  std::shared_ptr<const Manifest> manifest_;
+  Selection selection_;
+  std::vector<Hash> have_;  ///< ascending
   std::shared_ptr<UnfinishedParts> unfinished_;
   OnPart on_part_;
-  std::vector<Expected> expected_;  ///< ascending by id
-  const Expected* current_ = nullptr;
-  std::vector<std::byte> bytes_;  ///< of the current part so far
   bool checks_hashes_ = true;
+
+  std::shared_ptr<const Manifest> manifest_;  ///< whose directory is used, or ...
+  std::unique_ptr<Directory> growing_;        ///< ... one that pages are read into
+  std::optional<SelectedParts> asked_for_;    ///< once there is a directory
+  std::optional<std::uint32_t> expected_;     ///< parts; absent: only the whole answer tells
+
+  std::set<PartId> begun_;
+  std::optional<Current> current_;
+  std::vector<std::byte> bytes_;  ///< of the current part so far
   GetStats stats_;
 };
 

@@ -27,17 +27,28 @@ class PartQueue {
     changed_.notify_one();
   }
 
+  /// Before any part.
+  void push(Manifest manifest) {
+    const std::lock_guard lock(mutex_);
+    manifest_ = std::move(manifest);
+    changed_.notify_one();
+  }
+
   void end(Result<GetStats> outcome) {
     const std::lock_guard lock(mutex_);
     outcome_ = std::move(outcome);
     changed_.notify_one();
   }
 
+  struct News {
+    std::optional<Manifest> manifest;
+    std::deque<ReceivedPart> parts;
+  };
   /// Waits for more; what has come since the last call. Empty once all has been given.
-  std::deque<ReceivedPart> wait() {
+  News wait() {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return !parts_.empty() || outcome_; });
-    return std::exchange(parts_, {});
+    changed_.wait(lock, [&] { return manifest_ || !parts_.empty() || outcome_; });
+    return {std::exchange(manifest_, std::nullopt), std::exchange(parts_, {})};
   }
 
   Result<GetStats> outcome() {
@@ -48,6 +59,7 @@ class PartQueue {
  private:
   std::mutex mutex_;
   std::condition_variable changed_;
+  std::optional<Manifest> manifest_;
   std::deque<ReceivedPart> parts_;
   std::optional<Result<GetStats>> outcome_;
 };
@@ -100,15 +112,13 @@ class BlockingClient::Network {
 
   ClientSession& session() { return *session_; }
 
-  /// Parts and at last the outcome go to `queue`.
-  void begin_get(GetRequest request, std::shared_ptr<PartQueue> queue, std::stop_token stop) {
-    auto on_part = [queue](ReceivedPart part) { queue->push(std::move(part)); };
+  /// The outcome goes to `queue`.
+  void run(asio::awaitable<Result<GetStats>> get, std::shared_ptr<PartQueue> queue) {
     auto on_end = [queue](std::exception_ptr thrown, Result<GetStats> outcome) {
       if (thrown) outcome = fail(ErrorCode::LimitExceeded, "out of memory while receiving");
       queue->end(std::move(outcome));
     };
-    asio::co_spawn(io_, session_->get(std::move(request), std::move(on_part), std::move(stop)),
-                   std::move(on_end));
+    asio::co_spawn(io_, std::move(get), std::move(on_end));
   }
 
  private:
@@ -155,20 +165,47 @@ Result<void> BlockingClient::unpublish(const std::string& name) {
   return network_->wait_for(network_->session().unpublish(name));
 }
 
-Result<GetStats> BlockingClient::get(GetRequest request, const OnPart& on_part, std::stop_token stop) {
+/// Runs the coroutine that `begin` makes, and hands on what it brings. An error of the caller's ends it.
+template <class Begin>
+Result<GetStats> BlockingClient::receive(const Begin& begin, const OnManifest& on_manifest,
+                                         const OnPart& on_part, std::stop_token stop) {
   const auto queue = std::make_shared<PartQueue>();
   std::stop_source source;
   const StopAtExit stops(source);
   const std::stop_callback passes_on(stop, [&source] { source.request_stop(); });
-  network_->begin_get(std::move(request), queue, source.get_token());
+  network_->run(begin(queue, source.get_token()), queue);
   for (;;) {
-    std::deque<ReceivedPart> parts = queue->wait();
-    if (parts.empty()) return queue->outcome();
+    auto [manifest, parts] = queue->wait();
+    if (!manifest && parts.empty()) return queue->outcome();
+    if (manifest) {
+      auto taken = on_manifest(std::move(*manifest));
+      if (!taken) return forward_error(taken);
+    }
     for (; !parts.empty(); parts.pop_front()) {
       auto taken = on_part(std::move(parts.front()));
       if (!taken) return forward_error(taken);
     }
   }
+}
+
+Result<GetStats> BlockingClient::get(GetRequest request, const OnPart& on_part, std::stop_token stop) {
+  const auto begin = [&](const std::shared_ptr<PartQueue>& queue, std::stop_token token) {
+    auto push = [queue](ReceivedPart part) { queue->push(std::move(part)); };
+    return network_->session().get(std::move(request), std::move(push), std::move(token));
+  };
+  return receive(begin, nullptr, on_part, std::move(stop));
+}
+
+Result<GetStats> BlockingClient::open_and_get(const std::string& name, FirstRequest request,
+                                              const OnManifest& on_manifest, const OnPart& on_part,
+                                              std::stop_token stop) {
+  const auto begin = [&](const std::shared_ptr<PartQueue>& queue, std::stop_token token) {
+    auto push_manifest = [queue](Manifest manifest) { queue->push(std::move(manifest)); };
+    auto push = [queue](ReceivedPart part) { queue->push(std::move(part)); };
+    return network_->session().open_and_get(name, std::move(request), std::move(push_manifest),
+                                            std::move(push), std::move(token));
+  };
+  return receive(begin, on_manifest, on_part, std::move(stop));
 }
 
 Result<BlockingClient> connect_to(const std::string& server, ClientOptions options, std::stop_token stop) {

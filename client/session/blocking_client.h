@@ -45,8 +45,17 @@ class BlockingClient {
   /// that of `on_part`. At most the window of ClientOptions is queued ahead of `on_part`.
   Result<GetStats> get(GetRequest request, const OnPart& on_part, std::stop_token stop = {});
 
+  /// Called like OnPart, once, before any part.
+  using OnManifest = std::function<Result<void>(Manifest)>;
+  /// As ClientSession::open_and_get.
+  Result<GetStats> open_and_get(const std::string& name, FirstRequest request, const OnManifest& on_manifest,
+                                const OnPart& on_part, std::stop_token stop = {});
+
  private:
   class Network;
+  template <class Begin>
+  Result<GetStats> receive(const Begin& begin, const OnManifest& on_manifest, const OnPart& on_part,
+                           std::stop_token stop);
   explicit BlockingClient(std::unique_ptr<Network> network);
 
   std::unique_ptr<Network> network_;

@@ -27,6 +27,9 @@ struct ClientOptions {
   bool allow_plain =
       false;  ///< send a token over plain TCP even to other machines, where it can be overheard
   std::chrono::milliseconds connect_timeout{10'000};  ///< for the connection, and again for the greeting
+  /// False: the first requests go out with the greeting, without waiting for the server's. What it has
+  /// against the greeting is then their error.
+  bool await_greeting = true;
   std::chrono::milliseconds silence_timeout{30'000};  ///< a server that says nothing for so long is gone
   std::uint64_t window_bytes = 8u << 20;              ///< see credit_window.h; at least kMinInitialCredit
   std::uint64_t max_directory_bytes = 512u << 20;

@@ -23,6 +23,9 @@ constexpr std::size_t kMaxHave = 32'768;
 /// A server that wants to hear from us more often than this is not taken at its word.
 constexpr std::uint32_t kMinIdleTimeoutMs = 1000;
 
+/// What a server accepts that has not said so yet: docs/PROTOCOL.md, "Limits".
+constexpr std::uint32_t kUsualMessageBytes = 512u << 10;
+
 /// The frame after which nothing comes for its request.
 bool ends_answer(FrameType type) {
   return type == FrameType::RequestEnd || type == FrameType::Error || type == FrameType::Models ||
@@ -33,6 +36,13 @@ bool ends_answer(FrameType type) {
 Error error_in(const Frame& frame) {
   auto message = parse<ErrorMessage>(frame.payload);
   return message ? std::move(message->error) : std::move(message.error());
+}
+
+/// Tells the others of a request's failure.
+asio::awaitable<Result<void>> end_with(asio::awaitable<Result<void>> request, std::stop_source others) {
+  Result<void> outcome = co_await std::move(request);
+  if (!outcome) others.request_stop();
+  co_return outcome;
 }
 
 bool is_loopback(const asio::ip::tcp::socket& socket) {
@@ -52,7 +62,26 @@ ClientSession::ClientSession(std::unique_ptr<ByteStream> stream, ClientOptions o
       wake_writer_(stream_->executor()),
       wake_upload_(stream_->executor()),
       greeting_(stream_->executor()),
-      window_(options_.window_bytes) {}
+      greeted_(stream_->executor()),
+      window_(options_.window_bytes) {
+  server_.max_message_bytes = kUsualMessageBytes;
+  server_.max_ids = kMaxIds;
+}
+
+/// Leaves no connection behind, whatever ends its scope.
+class ClientSession::CloseUnlessKept {
+ public:
+  explicit CloseUnlessKept(std::shared_ptr<ClientSession> session) : session_(std::move(session)) {}
+  ~CloseUnlessKept() {
+    if (session_) session_->close();
+  }
+  CloseUnlessKept(const CloseUnlessKept&) = delete;
+  CloseUnlessKept& operator=(const CloseUnlessKept&) = delete;
+  void keep() { session_.reset(); }
+
+ private:
+  std::shared_ptr<ClientSession> session_;
+};
 
 asio::awaitable<Result<std::shared_ptr<ClientSession>>> ClientSession::connect(HostPort server,
                                                                                ClientOptions options) {
@@ -72,67 +101,59 @@ asio::awaitable<Result<std::shared_ptr<ClientSession>>> ClientSession::connect(H
   std::unique_ptr<ByteStream> stream =
       tls ? make_tls_stream(std::move(*socket), tls, server.host) : make_tcp_stream(std::move(*socket));
   if (options.wrap_stream) stream = options.wrap_stream(std::move(stream));
-  Result<std::shared_ptr<ClientSession>> session = co_await start(std::move(stream), std::move(options));
-  const bool is_babble =
-      !session && (session.error().code == ErrorCode::Protocol || session.error().code == ErrorCode::Io);
-  if (is_babble && !tls) session.error().message += " (does the server want TLS?)";
-  co_return session;
+  co_return co_await start(std::move(stream), std::move(options));
 }
 
 asio::awaitable<Result<std::shared_ptr<ClientSession>>> ClientSession::start(
     std::unique_ptr<ByteStream> stream, ClientOptions options) {
-  using namespace asio::experimental::awaitable_operators;
   std::shared_ptr<ClientSession> session(new ClientSession(std::move(stream), std::move(options)));
-  session->greeting_.expires_after(session->options_.connect_timeout);
-  auto greeting = session->greet();
-  auto silence = session->greeting_.expired();
-  auto first = co_await (std::move(greeting) || std::move(silence));
-  Result<void> greeted;
-  if (first.index() == 0) {
-    greeted = std::get<0>(first);
-  } else {
-    greeted = fail(ErrorCode::Timeout, session->stream_->peer() + " does not answer like a selvage server");
-  }
-  if (!greeted) {
-    session->stream_->close();
-    co_return forward_error(greeted);
-  }
-  auto notice = [weak = session->weak_from_this(), executor = session->executor()] {
+  CloseUnlessKept guard(session);
+  Result<void> ready = co_await session->greet();
+  if (!ready) co_return forward_error(ready);
+  guard.keep();
+  co_return session;
+}
+
+/// Says Hello once the transport is ready, and waits for the answer if it is to.
+asio::awaitable<Result<void>> ClientSession::greet() {
+  using namespace asio::experimental::awaitable_operators;
+  greeting_.expires_after(options_.connect_timeout);
+  auto handshake = stream_->handshake();
+  auto silence = greeting_.expired();
+  auto first = co_await (std::move(handshake) || std::move(silence));
+  if (first.index() == 1) co_return tl::unexpected(no_answer());
+  Result<void> ready = std::get<0>(first);
+  if (!ready) co_return ready;
+
+  auto notice = [weak = weak_from_this(), executor = executor()] {
     asio::post(executor, [weak] {
       if (const auto alive = weak.lock()) alive->grant();
     });
   };
-  session->consumed_ = std::make_shared<ConsumedBytes>(std::move(notice));
-  asio::co_spawn(session->executor(), session->run(), asio::detached);
-  co_return session;
-}
-
-asio::awaitable<Result<void>> ClientSession::greet() {
-  Result<void> ready = co_await stream_->handshake();
-  if (!ready) co_return ready;
+  consumed_ = std::make_shared<ConsumedBytes>(std::move(notice));
   Hello hello;
   hello.software = options_.software;
   hello.initial_credit = options_.window_bytes;
   hello.token = options_.token;
-  const std::vector<std::byte> bytes = to_frame(hello, 0);
-  const Pieces pieces(1, bytes);
-  Result<void> written = co_await stream_->write(pieces);
-  if (!written) co_return written;
-  Result<std::optional<Frame>> frame = co_await read_frame(*stream_, incoming_);
-  if (!frame) co_return forward_error(frame);
-  if (!frame->has_value()) {
-    const std::string hint = options_.tls ? "" : " (does the server want TLS?)";
-    co_return fail(ErrorCode::Unavailable, "the server closed the connection" + hint);
-  }
-  if ((*frame)->is(FrameType::Error)) co_return tl::unexpected(error_in(**frame));
-  if (!(*frame)->is(FrameType::HelloAck)) co_return fail(ErrorCode::Protocol, "the server does not greet");
-  Result<HelloAck> ack = parse<HelloAck>((*frame)->payload);
-  if (!ack) co_return forward_error(ack);
-  if (ack->version != kProtocolVersion) {
-    co_return fail(ErrorCode::Unsupported, "the server chose version " + std::to_string(ack->version));
-  }
-  server_ = std::move(*ack);
+  send(hello, 0);
+  asio::co_spawn(executor(), run(), asio::detached);
+  while (options_.await_greeting && !is_greeted_ && !ended_) co_await greeted_.wait();
+  if (ended_) co_return tl::unexpected(*ended_);
   co_return Result<void>();
+}
+
+Result<void> ClientSession::handle_greeting(const Frame& frame) {
+  if (frame.is(FrameType::Error) && frame.header.request_id == 0) return tl::unexpected(error_in(frame));
+  if (!frame.is(FrameType::HelloAck)) return fail(ErrorCode::Protocol, "the server does not greet");
+  auto ack = parse<HelloAck>(frame.payload);
+  if (!ack) return forward_error(ack);
+  if (ack->version != kProtocolVersion)
+    return fail(ErrorCode::Unsupported, "the server chose version " + std::to_string(ack->version));
+  server_ = std::move(*ack);
+  is_greeted_ = true;
+  greeted_.notify();
+  greeting_.expires_after({});  // ends the wait for it
+  return {};
 }
 
 asio::awaitable<void> ClientSession::run() {
@@ -145,6 +166,7 @@ asio::awaitable<void> ClientSession::run() {
   co_await (std::move(both) || std::move(silence));
   stream_->close();
   consumed_->close();
+  greeted_.notify();
   for (const auto& [id, pending] : pending_) settle(*pending, tl::unexpected(*ended_));
 }
 
@@ -152,6 +174,8 @@ asio::awaitable<void> ClientSession::run() {
 void ClientSession::end(Error reason) {
   if (ended_) return;
   if (going_away_ && reason.code == ErrorCode::Io) reason = {ErrorCode::Unavailable, *going_away_};
+  const bool is_babble = reason.code == ErrorCode::Protocol || reason.code == ErrorCode::Io;
+  if (!is_greeted_ && is_babble && !options_.tls) reason.message += " (does the server want TLS?)";
   ended_ = std::move(reason);
 }
 
@@ -160,7 +184,16 @@ void ClientSession::close() {
   stream_->close();
 }
 
+Error ClientSession::no_answer() const {
+  return {ErrorCode::Timeout, stream_->peer() + " does not answer like a selvage server"};
+}
+
 asio::awaitable<void> ClientSession::heartbeat() {
+  co_await greeting_.expired();
+  if (!is_greeted_) {
+    end(no_answer());
+    co_return;
+  }
   const std::chrono::milliseconds idle(std::max(server_.idle_timeout_ms, kMinIdleTimeoutMs));
   const auto interval = std::min<std::chrono::milliseconds>(options_.silence_timeout, idle) / 3;
   asio::steady_timer timer(stream_->executor());
@@ -197,6 +230,7 @@ Result<void> ClientSession::handle(const Frame& frame) {
   if (frame.is(FrameType::Data) && !window_.receive(frame.payload.size())) {
     return fail(ErrorCode::Protocol, "the server sends more than it was granted");
   }
+  if (!is_greeted_) return handle_greeting(frame);
   auto handled = frame.header.request_id == 0 ? handle_connection_frame(frame) : handle_answer(frame);
   grant();
   return handled;
@@ -329,13 +363,14 @@ class ClientSession::DialListener {
 
 template <class Message>
 asio::awaitable<Result<void>> ClientSession::exchange(Message message, AnswerReader& reader,
-                                                      std::stop_token stop,
-                                                      std::shared_ptr<UrgencyDial> dial) {
+                                                      std::stop_token stop, std::shared_ptr<UrgencyDial> dial,
+                                                      std::uint8_t least_urgency) {
   if (ended_) co_return tl::unexpected(*ended_);
   if (going_away_) co_return fail(ErrorCode::Unavailable, *going_away_);
   if (stop.stop_requested()) co_return fail(ErrorCode::Cancelled, "cancelled");
   Pending pending{reader, Signal(stream_->executor()), std::nullopt, 0};
   if constexpr (requires { message.urgency; }) pending.urgency = message.urgency;
+  pending.least_urgency = least_urgency;
   const PendingEntry entry(shared_from_this(), pending);
   const std::vector<std::byte> frame = to_frame(message, entry.id());
   if (frame.size() - kFrameHeaderSize > server_.max_message_bytes) {
@@ -373,9 +408,9 @@ void ClientSession::cancel(std::uint32_t request_id) {
 
 void ClientSession::reprioritise(std::uint32_t request_id, std::uint8_t urgency) {
   const auto found = pending_.find(request_id);
-  if (found == pending_.end() || found->second->outcome || found->second->urgency == urgency) return;
-  found->second->urgency = urgency;
-  send(Reprioritise{urgency}, request_id);
+  if (found == pending_.end() || found->second->outcome) return;
+  urgency = std::max(urgency, found->second->least_urgency);
+  if (std::exchange(found->second->urgency, urgency) != urgency) send(Reprioritise{urgency}, request_id);
 }
 
 /// The server may have begun to answer: it is told to stop, and what comes until it does is dropped.
@@ -405,14 +440,26 @@ asio::awaitable<Result<std::vector<ModelInfo>>> ClientSession::list() {
 
 asio::awaitable<Result<std::shared_ptr<const Manifest>>> ClientSession::open(std::string name,
                                                                              std::stop_token stop) {
-  ManifestReader reader(name, options_.max_directory_bytes);
   OpenModel request;
   request.name = std::move(name);
+  std::shared_ptr<const Manifest> opened;
+  auto on_manifest = [&opened](Manifest manifest) -> Result<void> {
+    opened = std::make_shared<const Manifest>(std::move(manifest));
+    return {};
+  };
+  ManifestReader reader(request, options_.max_directory_bytes, std::move(on_manifest));
   Result<void> answered = co_await exchange(std::move(request), reader, std::move(stop));
   if (!answered) co_return forward_error(answered);
-  Result<Manifest> manifest = reader.manifest();
-  if (!manifest) co_return forward_error(manifest);
-  co_return std::make_shared<const Manifest>(std::move(*manifest));
+  co_return opened;
+}
+
+/// Hands a part over that counts as held until its receipt goes.
+PartsReader::OnPart ClientSession::deliver_to(OnPart& on_part) {
+  return [this, &on_part](const PartId& id, std::vector<std::byte> bytes) {
+    const std::uint64_t size = bytes.size();
+    window_.hold(size);
+    on_part({id, std::move(bytes), Receipt(consumed_, size)});
+  };
 }
 
 asio::awaitable<Result<GetStats>> ClientSession::get(GetRequest request, OnPart on_part,
@@ -429,13 +476,8 @@ asio::awaitable<Result<GetStats>> ClientSession::get(GetRequest request, OnPart 
     }
   }
 
-  auto deliver = [this, &on_part](const PartId& id, std::vector<std::byte> bytes) {
-    const std::uint64_t size = bytes.size();
-    window_.hold(size);
-    on_part({id, std::move(bytes), Receipt(consumed_, size)});
-  };
   if (request.dial) request.urgency = request.dial->urgency();
-  Result<PartsReader> reader = PartsReader::for_request(request, std::move(deliver));
+  Result<PartsReader> reader = PartsReader::for_request(request, deliver_to(on_part));
   if (!reader) co_return forward_error(reader);
   if (!options_.check_hashes) reader->skip_hashes();
   GetParts message{request.manifest->name,  request.manifest->pack_id, std::move(request.selection),
@@ -447,6 +489,58 @@ asio::awaitable<Result<GetStats>> ClientSession::get(GetRequest request, OnPart 
   }
   if (request.unfinished) request.unfinished->clear();
   co_return reader->stats();
+}
+
+/// The parts must not come before the directory does: an open is as urgent as can be, so the get is less so
+/// until it has been answered.
+asio::awaitable<Result<GetStats>> ClientSession::open_and_get(std::string name, FirstRequest request,
+                                                              OnManifest on_manifest, OnPart on_part,
+                                                              std::stop_token stop) {
+  using namespace asio::experimental::awaitable_operators;
+  constexpr std::uint8_t kAfterTheOpen = 1;
+  if (!request.dial) request.dial = std::make_shared<UrgencyDial>(request.urgency);
+  PartsReader parts(request, deliver_to(on_part));
+  if (!options_.check_hashes) parts.skip_hashes();
+
+  OpenModel open;
+  open.name = name;
+  open.summary_only = true;
+  auto begin = [this, &parts, &on_manifest, &request](Manifest manifest) -> Result<void> {
+    parts.begin(manifest.directory);
+    on_manifest(std::move(manifest));
+    allow_urgency(parts, *request.dial);
+    return {};
+  };
+  ManifestReader summary(open, options_.max_directory_bytes, std::move(begin));
+  GetParts get;
+  get.model = std::move(name);
+  get.selection = request.selection;
+  get.urgency = std::max(request.dial->urgency(), kAfterTheOpen);
+  get.pages = pages_for(request.selection);
+
+  // Both frames are written before either is waited for; one that fails ends the other.
+  std::stop_source ends;
+  auto pass_on = [ends]() mutable { ends.request_stop(); };
+  const std::stop_callback cancels(stop, std::move(pass_on));
+  auto opening = end_with(exchange(std::move(open), summary, ends.get_token()), ends);
+  auto getting =
+      end_with(exchange(std::move(get), parts, ends.get_token(), request.dial, kAfterTheOpen), ends);
+  auto both = co_await (std::move(opening) && std::move(getting));
+  Result<void>& opened = std::get<0>(both);
+  Result<void>& got = std::get<1>(both);
+  if (!got) parts.leave_unfinished();
+  const bool is_ended_by_get = !opened && !got && opened.error().code == ErrorCode::Cancelled;
+  if (!opened && !is_ended_by_get) co_return forward_error(opened);
+  if (!got) co_return forward_error(got);
+  co_return parts.stats();
+}
+
+void ClientSession::allow_urgency(const AnswerReader& reader, const UrgencyDial& dial) {
+  for (const auto& [id, pending] : pending_) {
+    if (&pending->reader != &reader) continue;
+    pending->least_urgency = 0;
+    reprioritise(id, dial.urgency());
+  }
 }
 
 asio::awaitable<Result<StatusReport>> ClientSession::status() {

@@ -72,11 +72,20 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
 
   /// Called on the strand with each part as it completes; must not block. Parts may come in any order.
   using OnPart = std::function<void(ReceivedPart)>;
+  /// Called on the strand with the directory, which may lack pages: see open_and_get.
+  using OnManifest = std::function<void(Manifest)>;
 
   /// Fetches the selected parts. ModelChanged if the server has another pack by now; BadStream if a part is
   /// not what the directory lists; Cancelled soon after `stop` is requested (from any thread), and no part
   /// after it. The request's dial changes its urgency on the server while it runs.
   asio::awaitable<Result<GetStats>> get(GetRequest request, OnPart on_part, std::stop_token stop = {});
+
+  /// open() and get() in one flight, of whichever pack has the name. `on_manifest` is called once, before any
+  /// part, with what the summary page says. The pages that list the parts are among the parts, each before
+  /// what it lists. All others follow the parts, unless the selection is by ids: see pages_for.
+  asio::awaitable<Result<GetStats>> open_and_get(std::string name, FirstRequest request,
+                                                 OnManifest on_manifest, OnPart on_part,
+                                                 std::stop_token stop = {});
 
   /// Uploads a mesh and waits until it is a model of the server; one at a time. Unauthorised without the
   /// scope; InvalidArgument if the name is in use and not to be replaced; what selvage-pack says of a bad
@@ -104,14 +113,18 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
     std::optional<Result<void>> outcome;
     std::uint32_t next_seq = 0;
     std::uint8_t urgency = kUsualUrgency;  ///< that the server knows of
+    std::uint8_t least_urgency = 0;        ///< not more urgent than this for now
   };
   class PendingEntry;
+  class CloseUnlessKept;
   class DialListener;
 
   ClientSession(std::unique_ptr<ByteStream> stream, ClientOptions options);
 
   asio::awaitable<Result<void>> greet();
   asio::awaitable<void> run();
+  Result<void> handle_greeting(const Frame& frame);
+  Error no_answer() const;
   asio::awaitable<void> read_loop();
   asio::awaitable<void> write_loop();
   asio::awaitable<void> heartbeat();
@@ -123,7 +136,10 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
 
   template <class Message>
   asio::awaitable<Result<void>> exchange(Message message, AnswerReader& reader, std::stop_token stop,
-                                         std::shared_ptr<UrgencyDial> dial = {});
+                                         std::shared_ptr<UrgencyDial> dial = {},
+                                         std::uint8_t least_urgency = 0);
+  void allow_urgency(const AnswerReader& reader, const UrgencyDial& dial);
+  PartsReader::OnPart deliver_to(OnPart& on_part);
   struct UploadState;
   asio::awaitable<void> upload(std::uint32_t request_id, std::shared_ptr<UploadState> state);
 
@@ -137,13 +153,15 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
 
   std::unique_ptr<ByteStream> stream_;
   const ClientOptions options_;
-  HelloAck server_;
+  HelloAck server_;  ///< before it has greeted, what servers usually accept
 
   FrameBuffer incoming_;
   std::vector<std::byte> outgoing_;  ///< whole frames for the next write
   Signal wake_writer_;
   Signal wake_upload_;  ///< the writer has taken what was to be sent
   Deadline greeting_;
+  Signal greeted_;
+  bool is_greeted_ = false;
   std::chrono::steady_clock::time_point last_heard_;
 
   std::uint32_t last_request_id_ = 0;

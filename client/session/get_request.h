@@ -63,11 +63,20 @@ struct GetRequest {
   std::shared_ptr<UrgencyDial> dial = {};  ///< instead of `urgency`, where it is to change on the way
 };
 
+/// A get that opens its model on the way.
+struct FirstRequest {
+  Selection selection;  ///< without names, which nobody can resolve yet
+  std::uint8_t urgency = kUsualUrgency;
+  std::shared_ptr<UnfinishedParts> unfinished = {};  ///< as in GetRequest
+  std::shared_ptr<UrgencyDial> dial = {};            ///< as in GetRequest
+};
+
 /// What a get brought.
 struct GetStats {
-  std::uint32_t parts = 0;  ///< received
+  std::uint32_t parts = 0;  ///< received, without pages of the directory
   std::uint64_t bytes = 0;  ///< of them, without what an earlier get had left unfinished
   std::uint32_t held = 0;   ///< not sent, because the client said it has them
+  std::uint32_t pages = 0;  ///< of the directory; their bytes are among `bytes`
 };
 
 /// A whole part with the right hash. Destroying it (or its receipt) tells the sender that there is room for

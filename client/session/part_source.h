@@ -26,6 +26,15 @@ class PartSource {
   /// order, each once. ModelChanged if the model is not the one that was opened any more; Cancelled soon
   /// after `stop`.
   virtual Result<GetStats> get(GetRequest request, const OnPart& on_part, std::stop_token stop = {}) = 0;
+
+  /// Called like OnPart, once, before any part, with what is known of the directory then.
+  using OnManifest = std::function<Result<void>(Manifest)>;
+
+  /// open() and get() at once, for sources where that saves a round trip. Pages that the manifest's directory
+  /// lacks come among the parts, each before what it lists; those that nothing needed may be missing in the
+  /// end.
+  virtual Result<GetStats> open_and_get(FirstRequest request, const OnManifest& on_manifest,
+                                        const OnPart& on_part, std::stop_token stop = {});
 };
 
 }  // namespace selvage

@@ -5,9 +5,13 @@
 #include <string>
 
 #include "client/decode/bundle_decoder.h"
+#include "client/decode/region_decoder.h"
 #include "client/stitch/decode_limits.h"
 
 namespace selvage {
+
+PartCollector::PartCollector(const Directory& directory) : directory_(directory), stitcher_(directory) {}
+PartCollector::~PartCollector() = default;
 
 Result<void> PartCollector::add(const PartId& id, std::span<const std::byte> bytes) {
   if (directory_.find(id) == nullptr)
@@ -20,7 +24,9 @@ Result<void> PartCollector::add(const PartId& id, std::span<const std::byte> byt
 
 Result<void> PartCollector::add_region(RegionId region, std::uint8_t level,
                                        std::span<const std::byte> bytes) {
-  auto mesh = decode_region(bytes, decode_limits(directory_, region, level));
+  auto decoder = take_decoder();
+  auto mesh = decoder->decode(bytes, decode_limits(directory_, region, level));
+  give_back(std::move(decoder));
   if (!mesh) return forward_error(mesh);
   const std::scoped_lock lock(mutex_);
   return stitcher_.add_region(region, std::move(*mesh), level);
@@ -35,6 +41,19 @@ Result<void> PartCollector::add_bundle(RegionId region, std::span<const std::byt
   if (!triangles) return forward_error(triangles);
   const std::scoped_lock lock(mutex_);
   return stitcher_.add_bundle(region, std::move(*triangles));
+}
+
+std::unique_ptr<RegionDecoder> PartCollector::take_decoder() {
+  const std::scoped_lock lock(mutex_);
+  if (idle_decoders_.empty()) return std::make_unique<RegionDecoder>();
+  auto decoder = std::move(idle_decoders_.back());
+  idle_decoders_.pop_back();
+  return decoder;
+}
+
+void PartCollector::give_back(std::unique_ptr<RegionDecoder> decoder) {
+  const std::scoped_lock lock(mutex_);
+  idle_decoders_.push_back(std::move(decoder));
 }
 
 void PartCollector::remove_region(RegionId region) {

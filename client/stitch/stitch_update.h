@@ -39,6 +39,8 @@ struct StitchUpdate {
   std::vector<Vertex> vertices;            ///< new ones, and those that changed place; by id, each once
   std::vector<Patch> patches;              ///< those that changed; by id, each once
   std::vector<VertexId> removed_vertices;  ///< by id, each once; the numbers may be given out again later
+
+  bool empty() const { return vertices.empty() && patches.empty() && removed_vertices.empty(); }
 };
 
 }  // namespace selvage

@@ -3,101 +3,79 @@
 
 namespace selvage {
 
-ClersGrower::ClersGrower(std::vector<HandleSplit> splits, std::uint32_t triangles)
-    : splits_(std::move(splits)) {
-  vertex_of_corner_.reserve(3 * std::size_t{triangles});
-  opposite_.reserve(3 * std::size_t{triangles});
-  vertices_.reserve(triangles / 2 + 3);
+ClersGrower::ClersGrower(std::vector<HandleSplit> splits, std::uint32_t triangles, FanTable& table)
+    : table_(table), splits_(std::move(splits)) {
+  table_.start(triangles);
 }
 
-bool ClersGrower::split(CornerId gate) {
-  const VertexId tail = vertex_of_corner_[gate + 1], head = vertex_of_corner_[gate + 2];
-  const CornerId left = left_branch_of_split();
+bool ClersGrower::split(FanCorner gate) {
+  const VertexId tail = tail_, head = head_;
+  const FanCorner left = left_branch_of_split();
   if (left == kNone || left == gate || !is_open(left)) return false;
-  const VertexId left_tail = vertex_of_corner_[next(left)], left_head = vertex_of_corner_[prev(left)];
+  const VertexId left_tail = table_.vertex(next_on(left)), left_head = table_.vertex(prev_on(left));
   if (left_head == tail || left_head == head || left_tail == tail || left_tail == head) return false;
-  const CornerId arriving = vertices_[tail].arriving;
-  const VertexId joined = merge(tail, gate + 1, left_head, prev(left));
-  vertices_[joined].arriving = arriving;
-  const CornerId tip = add_triangle(joined, left_tail, head);
-  glue(tip + 1, gate);
-  glue(tip + 2, left);
-  vertices_[head].arriving = tip;
+  const FanCorner arriving_at_tail = arriving(tail);
+  const VertexId joined = merge(tail, gate + 1, left_head, prev_on(left));
+  arriving(joined) = arriving_at_tail;
+  const FanCorner tip = add_triangle(joined, left_tail, head);
+  table_.glue(tip + 1, gate);
+  table_.glue(tip + 2, left);
+  arriving(head) = tip;
   gates_.back() = tip;
+  tail_ = left_tail;
   return true;
 }
 
-CornerId ClersGrower::left_branch_of_split() {
-  if (next_split_ < splits_.size() && splits_[next_split_].split == triangle_count()) {
+FanCorner ClersGrower::left_branch_of_split() {
+  const std::uint32_t grown = table_.triangle_count();
+  if (next_split_ < splits_.size() && splits_[next_split_].split == grown) {
     const HandleSplit& handle = splits_[next_split_++];
-    return handle.source < triangle_count() ? 3 * handle.source + (handle.is_left ? 2 : 1) : kNone;
+    return handle.source < grown ? 8 * handle.source + (handle.is_left ? 2 : 1) : kNone;
   }
   if (gates_.size() < 2) return kNone;
-  const CornerId left = gates_[gates_.size() - 2];
+  const FanCorner left = gates_[gates_.size() - 2];
   gates_.pop_back();
   return left;
 }
 
+std::uint32_t ClersGrower::finish() {
+  const auto components = static_cast<std::uint32_t>(gates_.size());
+  table_.make_room_for(components);
+  return components;
+}
+
 bool ClersGrower::close(std::uint32_t gate) {
-  const CornerId facing_uv = gates_[gate];
+  const FanCorner facing_uv = gates_[gate];
   if (!is_open(facing_uv)) return false;
   // The border u -> v -> w -> u, the component on its left, backwards.
-  const VertexId u = vertex_of_corner_[facing_uv + 1], v = vertex_of_corner_[facing_uv + 2];
-  const CornerId facing_wu = vertices_[u].arriving;
-  const VertexId w = vertex_of_corner_[next(facing_wu)];
-  const CornerId facing_vw = vertices_[w].arriving;
-  if (vertex_of_corner_[next(facing_vw)] != v || w == u || v == u) return false;
-  const CornerId tip = add_triangle(w, v, u);
-  glue(tip, facing_uv);
-  glue(tip + 1, facing_wu);
-  glue(tip + 2, facing_vw);
-  vertices_[w].arriving = tip, vertices_[v].arriving = tip + 1, vertices_[u].arriving = tip + 2;
+  const VertexId u = table_.vertex(facing_uv + 1), v = table_.vertex(facing_uv + 2);
+  const FanCorner facing_wu = arriving(u);
+  const VertexId w = table_.vertex(next_on(facing_wu));
+  const FanCorner facing_vw = arriving(w);
+  if (table_.vertex(next_on(facing_vw)) != v || w == u || v == u) return false;
+  const FanCorner tip = add_triangle(w, v, u);
+  table_.glue(tip, facing_uv);
+  table_.glue(tip + 1, facing_wu);
+  table_.glue(tip + 2, facing_vw);
+  close_fan(w, tip), close_fan(v, tip + 1), close_fan(u, tip + 2);
   return true;
 }
 
-/// By pieces that are still in the cache when they are filled.
-void ClersGrower::make_room() {
-  constexpr std::size_t kPiece = 3 * 256;
-  const std::size_t announced = vertex_of_corner_.capacity();
-  // Only triangles that close components go beyond what was announced.
-  const std::size_t size = used_ < announced ? std::min(used_ + kPiece, announced) : used_ + 3;
-  vertex_of_corner_.resize(size);
-  opposite_.resize(size, kNone);
-}
-
-CornerTable ClersGrower::take() && {
-  CornerTable table;
-  vertex_of_corner_.resize(used_);
-  opposite_.resize(used_);
-  table.vertex_of_corner = std::move(vertex_of_corner_);
-  table.opposite = std::move(opposite_);
-  table.corner_of_vertex.reserve(vertices_.size());
-  for (VertexId v = 0; v < vertices_.size(); ++v) {
-    const CornerId c = vertices_[v].triangles > 0 ? vertices_[v].arriving : kNone;
-    const bool is_border = c != kNone && table.vertex(c) != v;
-    table.corner_of_vertex.push_back(is_border ? prev(c) : c);
-  }
-  return table;
-}
-
 /// Joins two open fans into one vertex. The smaller one is renamed, so all merges together take O(n log n).
-VertexId ClersGrower::merge(VertexId a, CornerId corner_a, VertexId b, CornerId corner_b) {
-  const bool keeps_a = vertices_[a].triangles >= vertices_[b].triangles;
+VertexId ClersGrower::merge(VertexId a, FanCorner corner_a, VertexId b, FanCorner corner_b) {
+  std::vector<FanTable::Vertex>& vertices = table_.vertices;
+  const bool keeps_a = vertices[a].triangles >= vertices[b].triangles;
   const VertexId kept = keeps_a ? a : b, gone = keeps_a ? b : a;
   rename_fan(keeps_a ? corner_b : corner_a, kept);
-  vertices_[kept].triangles += vertices_[gone].triangles;
-  vertices_[gone].triangles = 0;
+  vertices[kept].triangles += vertices[gone].triangles;
+  vertices[gone].triangles = 0;
   return kept;
 }
 
-void ClersGrower::rename_fan(CornerId any_corner, VertexId to) {
-  CornerId c = any_corner;
-  for (CornerId across = opposite_[prev(c)]; across != kNone; across = opposite_[prev(c)]) c = prev(across);
-  while (c != kNone) {
-    vertex_of_corner_[c] = to;
-    const CornerId across = opposite_[next(c)];
-    c = across == kNone ? kNone : next(across);
-  }
+void ClersGrower::rename_fan(FanCorner any_corner, VertexId to) {
+  FanCorner c = any_corner;
+  for (FanCorner cw = table_.swing_cw(c); cw != kNone; cw = table_.swing_cw(c)) c = cw;
+  for (FanCorner rim = next_on(c); rim != kNone; rim = table_.turn(rim)) table_.set_vertex(prev_on(rim), to);
 }
 
 }  // namespace selvage

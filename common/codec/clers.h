@@ -24,7 +24,7 @@
 #include <vector>
 
 #include "common/codec/codec_tables.h"
-#include "common/mesh/corner_table.h"
+#include "common/codec/fan_table.h"
 
 namespace selvage {
 
@@ -39,12 +39,13 @@ struct HandleSplit {
   bool is_left = false;  ///< the edge of `source` is its left one, else its right one
 };
 
-/// Corner numbering of every grown triangle t: 3t is the tip, 3t+1 and 3t+2 follow counter-clockwise. So the
-/// gate is opposite 3t, the right edge opposite 3t+1, the left edge opposite 3t+2.
+/// Corner numbering of every grown triangle t: 8t is the tip, 8t+1 and 8t+2 follow counter-clockwise. So the
+/// gate is opposite 8t, the right edge opposite 8t+1, the left edge opposite 8t+2.
 class ClersGrower {
  public:
-  /// `splits` ascending by `split`. Makes room for `triangles`, which the caller has bounded.
-  ClersGrower(std::vector<HandleSplit> splits, std::uint32_t triangles);
+  /// Grows the mesh in `table`, which starts anew with room for `triangles`; the caller has bounded them.
+  /// Vertices that were merged away keep their number and have no triangles. `splits` ascending by `split`.
+  ClersGrower(std::vector<HandleSplit> splits, std::uint32_t triangles, FanTable& table);
 
   /// The model of the next symbol: by the last symbol and how many triangles surround the gate's two ends.
   unsigned context() const;
@@ -52,120 +53,117 @@ class ClersGrower {
   /// Glues the next of the announced triangles. False if no mesh has this symbol here: the stream is corrupt.
   bool grow(Clers symbol);
 
-  /// Components that are complete or growing: one gate is left for each.
-  std::uint32_t open_gates() const { return static_cast<std::uint32_t>(gates_.size()); }
-  std::uint32_t triangle_count() const { return used_ / 3; }
+  /// After the last symbol: how many components there are. One gate is left for each.
+  std::uint32_t finish();
 
   /// Closes the component whose gate is the `gate`-th by the triangle that the encoder started from. False if
   /// the component's border is not three edges.
   bool close(std::uint32_t gate);
 
-  /// The grown connectivity. Vertices keep the numbers they grew with; those that were merged away have no
-  /// corner. Those on the border have any corner in corner_of_vertex. The grower is spent.
-  CornerTable take() &&;
-
  private:
-  /// A vertex of the growing border has one open fan, and so one border edge that arrives at it.
-  struct GrownVertex {
-    std::uint32_t triangles = 0;  ///< grown around it; 0 once merged away
-    CornerId arriving = kNone;    ///< faces that edge; inside the mesh, one of the vertex's own corners
-  };
+  // A vertex of the growing border has one open fan, and so one border edge that arrives at it; its corner is
+  // the one that faces this edge.
+  FanCorner& arriving(VertexId v) { return table_.vertices[v].corner; }
+  FanCorner arriving(VertexId v) const { return table_.vertices[v].corner; }
 
-  CornerId add_triangle(VertexId tip, VertexId after, VertexId before);
-  void make_room();
+  std::uint32_t triangles(VertexId v) const { return table_.vertices[v].triangles; }
+  FanCorner add_triangle(VertexId tip, VertexId after, VertexId before);
   VertexId add_vertex();
-  void glue(CornerId a, CornerId b) { opposite_[a] = b, opposite_[b] = a; }
-  bool is_open(CornerId c) const { return vertices_[vertex_of_corner_[prev(c)]].arriving == c; }
-  bool split(CornerId gate);
-  CornerId left_branch_of_split();
-  VertexId merge(VertexId a, CornerId corner_a, VertexId b, CornerId corner_b);
-  void rename_fan(CornerId any_corner, VertexId to);
+  void close_fan(VertexId v, FanCorner own);
+  bool is_open(FanCorner c) const { return arriving(table_.vertex(prev_on(c))) == c; }
+  bool split(FanCorner gate);
+  FanCorner left_branch_of_split();
+  VertexId merge(VertexId a, FanCorner corner_a, VertexId b, FanCorner corner_b);
+  void rename_fan(FanCorner any_corner, VertexId to);
 
+  FanTable& table_;
   std::vector<HandleSplit> splits_;
   std::size_t next_split_ = 0;
-  std::vector<CornerId> gates_;  ///< tips that face the open gates, the current one on top
+  std::vector<FanCorner> gates_;          ///< tips that face the open gates, the current one on top
+  VertexId tail_ = kNone, head_ = kNone;  ///< of the current gate
   Clers last_ = Clers::E;
-  CornerId used_ = 0;  ///< corners grown so far; both arrays are a little ahead
-  std::vector<VertexId> vertex_of_corner_;
-  std::vector<CornerId> opposite_;
-  std::vector<GrownVertex> vertices_;
 };
 
 inline unsigned ClersGrower::context() const {
   constexpr unsigned kCounts = region_model::kClersCounts;
   const unsigned last = static_cast<unsigned>(last_) * kCounts * kCounts;
   if (gates_.empty()) return last;
-  const CornerId gate = gates_.back();
-  const unsigned tail = std::min(vertices_[vertex_of_corner_[gate + 1]].triangles, kCounts) - 1;
-  const unsigned head = std::min(vertices_[vertex_of_corner_[gate + 2]].triangles, kCounts) - 1;
-  return last + tail * kCounts + head;
+  return last + (std::min(triangles(tail_), kCounts) - 1) * kCounts + std::min(triangles(head_), kCounts) - 1;
 }
 
-inline CornerId ClersGrower::add_triangle(VertexId tip, VertexId after, VertexId before) {
-  if (used_ == vertex_of_corner_.size()) [[unlikely]]
-    make_room();
-  const CornerId corner = used_;
-  used_ += 3;
-  VertexId* vertices = &vertex_of_corner_[corner];
-  vertices[0] = tip;
-  vertices[1] = after;
-  vertices[2] = before;
-  for (VertexId v : {tip, after, before}) ++vertices_[v].triangles;
-  return corner;
+[[gnu::always_inline]] inline FanCorner ClersGrower::add_triangle(VertexId tip, VertexId after,
+                                                                  VertexId before) {
+  for (VertexId v : {tip, after, before}) ++table_.vertices[v].triangles;
+  return table_.add_triangle(tip, after, before);
 }
 
 inline VertexId ClersGrower::add_vertex() {
-  vertices_.push_back({});
-  return static_cast<VertexId>(vertices_.size() - 1);
+  table_.vertices.push_back({});
+  return table_.vertex_count() - 1;
 }
 
-// In all cases the gate runs from tail to head, and the new triangle's tip corner faces the next gate.
+inline void ClersGrower::close_fan(VertexId v, FanCorner own) {
+  table_.vertices[v].triangles |= FanTable::Vertex::kIsInside;
+  table_.vertices[v].corner = own;
+}
+
+// The gate runs from tail to head, and the new triangle's tip corner faces the next gate.
+//
+// Each case says what comes next in constants: so the next symbol's model follows from which case is taken,
+// which processors guess right, and need not wait for the symbol.
 [[gnu::always_inline]] inline bool ClersGrower::grow(Clers symbol) {
-  last_ = symbol;
   if (symbol == Clers::E) {
+    last_ = Clers::E;
     const VertexId tip = add_vertex(), after = add_vertex(), before = add_vertex();
-    const CornerId corner = add_triangle(tip, after, before);
-    vertices_[before].arriving = corner;
-    vertices_[tip].arriving = corner + 1;
-    vertices_[after].arriving = corner + 2;
+    const FanCorner corner = add_triangle(tip, after, before);
+    arriving(before) = corner;
+    arriving(tip) = corner + 1;
+    arriving(after) = corner + 2;
     gates_.push_back(corner);
+    tail_ = after, head_ = before;
     return true;
   }
   // A handle may have used up the edge that waits here.
-  if (gates_.empty() || !is_open(gates_.back())) return false;
-  const CornerId gate = gates_.back();
-  const VertexId tail = vertex_of_corner_[gate + 1], head = vertex_of_corner_[gate + 2];
+  if (gates_.empty() || arriving(head_) != gates_.back()) return false;
+  const FanCorner gate = gates_.back();
   if (symbol == Clers::C) {
+    last_ = Clers::C;
     // The triangle closes the tail's fan: between the gate and the border edge that arrives at the tail.
-    const CornerId arriving = vertices_[tail].arriving;
-    const VertexId after = vertex_of_corner_[next(arriving)];
-    if (after == head) return false;
-    const CornerId tip = add_triangle(tail, after, head);
-    glue(tip + 1, gate);
-    glue(tip + 2, arriving);
-    vertices_[tail].arriving = tip;
-    vertices_[head].arriving = tip;
+    const FanCorner left = arriving(tail_);
+    const VertexId after = table_.vertex(next_on(left));
+    if (after == head_) return false;
+    const FanCorner tip = add_triangle(tail_, after, head_);
+    table_.glue(tip + 1, gate);
+    table_.glue(tip + 2, left);
+    close_fan(tail_, tip);
+    arriving(head_) = tip;
     gates_.back() = tip;
+    tail_ = after;
     return true;
   }
   if (symbol == Clers::R) {
+    last_ = Clers::R;
     const VertexId v = add_vertex();
-    const CornerId tip = add_triangle(head, tail, v);
-    glue(tip + 2, gate);
-    vertices_[v].arriving = tip;
-    vertices_[head].arriving = tip + 1;
+    const FanCorner tip = add_triangle(head_, tail_, v);
+    table_.glue(tip + 2, gate);
+    arriving(v) = tip;
+    arriving(head_) = tip + 1;
     gates_.back() = tip;
+    head_ = v;
     return true;
   }
   if (symbol == Clers::L) {
+    last_ = Clers::L;
     const VertexId v = add_vertex();
-    const CornerId tip = add_triangle(tail, v, head);
-    glue(tip + 1, gate);
-    vertices_[v].arriving = tip + 2;
-    vertices_[head].arriving = tip;
+    const FanCorner tip = add_triangle(tail_, v, head_);
+    table_.glue(tip + 1, gate);
+    arriving(v) = tip + 2;
+    arriving(head_) = tip;
     gates_.back() = tip;
+    tail_ = v;
     return true;
   }
+  last_ = Clers::S;
   return split(gate);
 }
 

@@ -1,39 +1,50 @@
 // SPDX-License-Identifier: MIT
 //
-// The order in which vertices are coded, and what is known around each when its turn comes. A vertex that two
-// known triangles predict comes before one that a single triangle predicts, and that before a new start.
-//
-// One turn around a vertex does everything: numbers its corners, collects the known neighbours and
-// parallelograms, and offers the neighbours that now have a triangle with two known vertices.
+// Vertices one by one in the order of a FanWalk, each with what the positions of those before say about it.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
+#include "common/codec/fan_walk.h"
 #include "common/codec/prediction.h"
-#include "common/mesh/corner_table.h"
+#include "common/codec/scratch.h"
 #include "common/mesh/vec3.h"
 
 namespace selvage {
 
 class GeometryWalk {
+  /// Sums over neighbours are sums of lanes.
+  struct Known {
+    IntLanes position;  ///< and the tangential residual
+    FloatLanes error;   ///< against the mean parallelogram, and the normal residual
+  };
+
  public:
-  /// Vertices of `table` may have any numbers below its vertex_count(); its corner_of_vertex is not looked
-  /// at, a vertex is a fan of corners. Ends after `most_vertices` at the latest. `extent` is the longest side
-  /// of the region's box; coordinates are below 2^24.
-  GeometryWalk(CornerTable table, std::uint32_t most_vertices, std::int32_t extent);
+  /// What a walk needs room for, kept between walks.
+  struct Memory {
+    FanWalk::Memory order;
+    Scratch<Known> known;
+  };
+
+  /// Ends after `most_vertices` at the latest. `extent` is the longest side of the region's box; coordinates
+  /// are below 2^24. Borrows `table` and `memory`.
+  GeometryWalk(const FanTable& table, std::uint32_t most_vertices, std::int32_t extent, Memory& memory);
 
   /// Goes to the next vertex and looks around; false after the last. Every call must be followed by place()
   /// or place_first() before the next.
   bool next_vertex(Surroundings& around);
   /// The number that the current vertex had in the table.
-  VertexId old_number() const { return old_number_; }
-  /// Vertices placed so far.
-  std::uint32_t count() const { return count_; }
-  /// True if no corner of the table is left.
-  bool is_complete() const { return corners_left_ == 0; }
+  VertexId old_number() const { return fan_of(count_).old_number; }
+
+  /// A third of the work for a vertex that comes later, which next_vertex() would do otherwise. A decoder
+  /// does it between the symbols of a vertex, each of which must wait for the one before: 0, 1, 2, all or
+  /// none.
+  template <int kStep>
+  void work_ahead();
 
   /// What the current vertex turned out to be. `tangential` and `normal` are the magnitudes of the coded
   /// residuals.
@@ -41,40 +52,128 @@ class GeometryWalk {
   /// A vertex without neighbours, which nothing predicts.
   void place_first(const GridPoint& position);
 
-  /// Numbers of the vertices on the border, ascending.
-  std::span<const VertexId> border_vertices() const { return border_; }
+  /// Vertices placed so far.
+  std::uint32_t count() const { return count_; }
   std::vector<GridPoint> positions() const;
-  /// The table with vertices numbered by visit. The walk is spent.
-  CornerTable take_table();
+  const FanWalk& order() const { return order_; }
 
  private:
-  /// Sums over neighbours are sums of lanes.
-  struct Known {
-    IntLanes position;  ///< and the tangential residual
-    FloatLanes error;   ///< against the mean parallelogram, and the normal residual
-  };
-  /// How many triangles predict a vertex that is not yet known; two stands for more.
-  enum State : std::uint16_t { kUnseen, kOnce, kWell };
-  struct Fan;
+  Fan& fan_of(VertexId v) { return fans_[v % kFans]; }
+  const Fan& fan_of(VertexId v) const { return fans_[v % kFans]; }
+  void look_around(const Fan& fan, Surroundings& around) const;
 
-  bool find_next();
-  void turn_around(Fan& fan);
-  void offer_neighbours(const Fan& fan);
-  void summarise(const Fan& fan, Surroundings& around) const;
-
-  CornerTable table_;  ///< visited vertices already have their new numbers, the others kUnvisited added
-  std::uint32_t most_vertices_, corners_left_;
-  std::vector<State> states_;                ///< by old number
-  std::unique_ptr<CornerId[]> well_, once_;  ///< queues of corners
-  std::size_t next_well_ = 0, well_end_ = 0, next_once_ = 0, once_end_ = 0;
-  CornerId next_seed_ = 0, current_ = kNone;
-  VertexId old_number_ = kNone;
-  std::vector<CornerId> corner_of_visited_;
-  std::vector<VertexId> border_;
-  std::unique_ptr<Known[]> known_;  ///< by new number
+  FanWalk order_;
+  static constexpr std::uint32_t kFans = 8;
+  std::array<Fan, kFans> fans_;  ///< of the current vertex and those after it that were visited, by number
+  bool is_ahead_ = false;
+  Known* known_;  ///< by number
   VertexId count_ = 0;
   std::int32_t recent_tangential_, recent_normal_;  ///< running means of logarithms, in 32nds
 };
+
+template <int kStep>
+[[gnu::always_inline]] inline void GeometryWalk::work_ahead() {
+  if (kStep == 0) is_ahead_ = order_.count() - count_ < kFans && order_.turn();
+  if (!is_ahead_) return;
+  if (kStep == 1) order_.offer();
+  if (kStep == 2) order_.gather(fan_of(order_.count()));
+}
+
+inline constexpr std::array<float, Fan::kMostNeighbours + 1> kReciprocal = [] {
+  std::array<float, Fan::kMostNeighbours + 1> reciprocal{};
+  for (unsigned n = 1; n <= Fan::kMostNeighbours; ++n) reciprocal[n] = 1.0F / static_cast<float>(n);
+  return reciprocal;
+}();
+
+inline unsigned shape_class_of(unsigned parallelograms, unsigned valence, bool is_border) {
+  const unsigned count = std::min(parallelograms, 4u) - 1;
+  const unsigned ring = std::clamp(valence, 3u, 10u) - 3;
+  return (count * 8 + ring) * 2 + is_border;
+}
+
+/// Finds the axis that a normal is closest to, and how the plane rises along it.
+inline void set_tangent_plane(FloatLanes normal, Surroundings& around) {
+  const FloatLanes size = absolute(normal);
+  // Without jumps: which axis it is can't be guessed.
+  const unsigned is_x = static_cast<unsigned>(size[0] >= size[1]) & static_cast<unsigned>(size[0] >= size[2]);
+  const unsigned is_y = (is_x ^ 1) & static_cast<unsigned>(size[1] >= size[2]);
+  const unsigned axis = 2 - 2 * is_x - is_y;
+  const float twice[] = {normal[0], normal[1], normal[2], normal[0], normal[1]};
+  const float along = twice[axis], scale = along == 0 ? 0 : -1.0F / along;
+  around.normal_axis = axis;
+  around.slopes[0] = twice[axis + 1] * scale;
+  around.slopes[1] = twice[axis + 2] * scale;
+}
+
+[[gnu::always_inline]] inline void GeometryWalk::look_around(const Fan& fan, Surroundings& around) const {
+  const Known* known = known_;
+  const unsigned m = fan.neighbours, n = fan.parallelograms;
+  IntLanes base = known[fan.neighbour[0]].position;
+  base[3] = 0;
+  IntLanes ring{};
+  FloatLanes errors{};
+  for (unsigned i = 0; i < m; ++i) {
+    const Known& neighbour = known[fan.neighbour[i]];
+    ring += neighbour.position - base;
+    errors += neighbour.error;
+  }
+
+  std::array<IntLanes, Fan::kMostParallelograms> tips;
+  IntLanes sum{}, edges{};
+  FloatLanes normal{};
+  for (unsigned i = 0; i < n; ++i) {
+    const Fan::Parallelogram& at = fan.parallelogram[i];
+    const IntLanes p = known[at.begin].position - base, q = known[at.end].position - base,
+                   r = known[at.across].position - base;
+    tips[i] = p + q - r;
+    sum += tips[i];
+    edges += p + q;
+    normal += cross(to_float(q - p), to_float(r - p));
+  }
+
+  const FloatLanes mean_ring = to_float(ring) * kReciprocal[m], mean_error = errors * kReciprocal[m];
+
+  around.parallelograms = n;
+  around.size_class = std::min(n, 3u);
+  around.base = base;
+  around.recent_tangential = recent_tangential_ / 32;
+  around.recent_normal = recent_normal_ / 32;
+  if (n == 0) {
+    around.shape_class = 0;
+    around.mean = mean_ring;
+    around.beyond = around.ring = around.trend = FloatLanes{};
+    around.normal_axis = 2;
+    around.slopes[0] = around.slopes[1] = 0;
+    around.logs = log8(FloatLanes{mean_ring[3], mean_error[3], 0, 0} * 4.0F + 1.0F);
+    return;
+  }
+
+  const FloatLanes mean = to_float(sum) * kReciprocal[n], edge = to_float(edges) * (0.5F * kReciprocal[n]);
+  FloatLanes spread{};
+  for (unsigned i = 0; i < n; ++i) spread += absolute(to_float(tips[i]) - mean);
+  around.shape_class = shape_class_of(n, fan.triangles, fan.is_border);
+  around.mean = mean;
+  around.beyond = mean - edge;
+  around.ring = mean_ring - edge;
+  around.trend = mean_error;
+  const float mean_spread = sum_of_three(spread) * kReciprocal[n];
+  const float reach = sum_of_three(absolute(around.beyond));
+  around.logs = log8(FloatLanes{mean_ring[3], mean_error[3], mean_spread, reach} * 4.0F + 1.0F);
+  set_tangent_plane(normal, around);
+}
+
+[[gnu::always_inline]] inline bool GeometryWalk::next_vertex(Surroundings& around) {
+  if (count_ == order_.count()) {
+    work_ahead<0>();
+    if (!is_ahead_) return false;
+    work_ahead<1>();
+    work_ahead<2>();
+  }
+  const Fan& fan = fan_of(count_);
+  around.has_neighbours = fan.neighbours > 0;
+  if (around.has_neighbours) look_around(fan, around);
+  return true;
+}
 
 inline void GeometryWalk::place(const Surroundings& around, IntLanes position, std::uint32_t tangential,
                                 std::uint32_t normal) {

@@ -58,6 +58,10 @@ struct SizeClass {
   int raw_low_bits = 0;    ///< bits of the magnitude that are noise at this size and go uncoded
 };
 
+inline constexpr int kMostSize = 8 * 24 - 1;
+/// What a residual takes at most besides its symbol: low bits and sign.
+inline constexpr int kMostResidualBits = kMostSize / 8 - 4 + 1;
+
 /// What of a magnitude goes through a model: the bits above raw_low_bits, or the escape.
 inline constexpr std::uint32_t kMagnitudeEscape = 15;
 
@@ -120,8 +124,12 @@ class Predictor {
     std::int32_t sum = expected[axis];
     if (axis == 1) sum += weights.second * log_u;
     if (axis == 2) sum += weights.third[0] * log_u + weights.third[1] * log_w;
-    const auto size = static_cast<std::uint32_t>(std::clamp(sum >> 8, 0, 8 * 24 - 1));
-    return {size / 4, std::max(0, static_cast<int>(size / 8) - 4)};
+    // Compares that become moves: jumps would be mispredicted.
+    int size = sum >> 8;
+    size = size < 0 ? 0 : size;
+    size = size > kMostSize ? kMostSize : size;
+    const int low_bits = size / 8 - 4;
+    return {static_cast<unsigned>(size) / 4, low_bits < 0 ? 0 : low_bits};
   }
   /// What size classes weigh, for training.
   static std::array<double, kSizeFeatures> size_features(const Surroundings& around, std::int32_t log_u,

@@ -40,8 +40,8 @@ class ByteWriter {
 };
 
 /// Reads hostile bytes. The first read past the end, overlong varint or unfulfilled demand makes the reader
-/// fail for good: every later read gives zeros and empty spans, and `ok()` stays false. So a parser may read a
-/// whole record and check once, as long as it checks before it trusts a count.
+/// fail for good: every later read gives zeros and empty spans, and `ok()` stays false. So a parser may read
+/// a whole record and check once, as long as it checks before it trusts a count.
 class ByteReader {
  public:
   explicit ByteReader(std::span<const std::byte> bytes) : bytes_(bytes) {}

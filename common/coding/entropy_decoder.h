@@ -5,8 +5,9 @@
 // cost as little as 2^-15 bits (see kMaxSymbolsPerByte).
 #pragma once
 
-#include <algorithm>
+#include <bit>
 #include <cstdint>
+#include <cstring>
 #include <span>
 
 #include "common/coding/symbol_models.h"
@@ -23,8 +24,7 @@ class EntropyDecoder {
         begin_(bytes.data()),
         at_(bytes.data()),
         end_(bytes.data() + bytes.size()),
-        words_end_(bytes.empty() ? end_ : end_ - 1),
-        bits_at_(end_) {
+        words_end_(bytes.empty() ? end_ : end_ - 1) {
     const std::uint32_t high = word();
     state_ = high << 16 | word();
     if (state_ < kStateLow) overran_ = true, state_ = kStateLow;
@@ -40,24 +40,23 @@ class EntropyDecoder {
     return symbol;
   }
 
-  /// Makes sure that bits_at_hand() may take `count` bits; up to 32 can be made sure of.
-  void expect_bits(int count) {
-    if (filled_ < count) refill();
+  /// The next kPeek bits and perhaps some more, lowest first; zeros past the end.
+  std::uint64_t peek_bits() const {
+    const std::size_t bytes = bits_used_ / 8, left = static_cast<std::size_t>(end_ - begin_);
+    if (left < bytes + sizeof(std::uint64_t)) [[unlikely]]
+      return peek_last_bits();
+    std::uint64_t backwards;
+    std::memcpy(&backwards, end_ - bytes - sizeof backwards, sizeof backwards);
+    if constexpr (std::endian::native == std::endian::little) backwards = __builtin_bswap64(backwards);
+    return backwards >> bits_used_ % 8;
   }
-  /// The next `count` < 32 of the bits that were made sure of.
-  std::uint32_t bits_at_hand(int count) {
-    const auto value = static_cast<std::uint32_t>(buffer_) & ((1u << count) - 1);
-    buffer_ >>= count;
-    filled_ -= count;
-    return value;
-  }
+  static constexpr int kPeek = 57;
+  void skip_bits(int count) { bits_used_ += static_cast<std::size_t>(count); }
 
   /// `count` <= 32.
   std::uint32_t bits(int count) {
-    if (filled_ < count) refill();
-    const auto value = static_cast<std::uint32_t>(buffer_ & ((std::uint64_t{1} << count) - 1));
-    buffer_ >>= count;
-    filled_ -= count;
+    const auto value = static_cast<std::uint32_t>(peek_bits() & ((std::uint64_t{1} << count) - 1));
+    skip_bits(count);
     return value;
   }
 
@@ -69,14 +68,13 @@ class EntropyDecoder {
   }
 
   /// False as soon as more was read than there is.
-  bool ok() const { return !overran_ && filled_ >= invented_; }
+  bool ok() const { return !overran_ && bits_used_ <= 8 * static_cast<std::size_t>(end_ - begin_); }
 
   /// True if every byte was consumed and the states are back where the encoder started: the stream was whole.
   bool is_finished() const {
-    // Whole bytes in the buffer were read ahead; the bits of a byte begun must be zero.
-    const std::byte* used_to = bits_at_ + (filled_ - invented_) / 8;
-    const std::uint64_t padding = buffer_ & ((std::uint64_t{1} << (filled_ % 8)) - 1);
-    return ok() && state_ == kStateLow && padding == 0 && at_ == used_to;
+    if (!ok() || state_ != kStateLow || at_ != end_ - (bits_used_ + 7) / 8) return false;
+    // The bits of a byte begun must be zero.
+    return bits_used_ % 8 == 0 || (peek_bits() & ((1u << (8 - bits_used_ % 8)) - 1)) == 0;
   }
 
  private:
@@ -104,34 +102,19 @@ class EntropyDecoder {
     return word_at(at_ - 2);
   }
 
-  /// At least 32 bits. Reading ahead may take bytes that are words' as well; is_finished() finds out.
-  void refill() {
-    if (bits_at_ - begin_ >= 4) {
-      bits_at_ -= 4;
-      std::uint32_t four = 0;
-      for (int i = 0; i < 4; ++i) four |= std::to_integer<std::uint32_t>(bits_at_[i]) << (24 - 8 * i);
-      buffer_ |= std::uint64_t{four} << filled_;
-      filled_ += 32;
-      return;
-    }
-    while (filled_ < 32) {
-      if (bits_at_ != begin_) {
-        buffer_ |= std::to_integer<std::uint64_t>(*--bits_at_) << filled_;
-      } else {
-        invented_ = std::min(invented_ + 8, 1 << 20);
-      }
-      filled_ += 8;
-    }
+  std::uint64_t peek_last_bits() const {
+    std::uint64_t value = 0;
+    const std::size_t bytes = bits_used_ / 8, size = static_cast<std::size_t>(end_ - begin_);
+    for (std::size_t i = 0; i < sizeof value && bytes + i < size; ++i)
+      value |= std::to_integer<std::uint64_t>(end_[-1 - static_cast<std::ptrdiff_t>(bytes + i)]) << (8 * i);
+    return value >> bits_used_ % 8;
   }
 
   SymbolModels models_;
   const std::byte *begin_, *at_, *end_;
   const std::byte* words_end_;  ///< no whole word begins here or later
-  const std::byte* bits_at_;
   std::uint32_t state_ = kStateLow;
-  std::uint64_t buffer_ = 0;
-  int filled_ = 0;
-  int invented_ = 0;  ///< zero bits from before the first byte: bad if more were taken than those behind them
+  std::size_t bits_used_ = 0;  ///< counted from the last byte backwards
   bool overran_ = false;
 };
 

@@ -353,6 +353,8 @@ const NamedRegions* Directory::find_name(std::string_view text) const {
   return found != names.end() && found->name == text ? &*found : nullptr;
 }
 
+bool Directory::is_complete() const { return std::ranges::all_of(pages, &PageEntry::is_read); }
+
 const PartRef* Directory::find(const PartId& id) const {
   if (id.kind == PartKind::Page)
     return id.level == 0 && id.region < pages.size() ? &pages[id.region].part : nullptr;
@@ -445,6 +447,15 @@ Result<Directory> parse_directory(std::span<const std::byte> bytes, std::uint32_
       return fail(ok.error().code, ok.error().message, offset + ok.error().offset);
   }
   return directory;
+}
+
+void complete(Directory& directory, const Directory& whole) {
+  for (std::uint32_t page = 0; page < directory.pages.size(); ++page) {
+    if (directory.pages[page].is_read) continue;
+    const auto first = whole.regions.begin() + page * kRegionsPerPage;
+    std::copy_n(first, regions_in(whole, page), directory.regions.begin() + page * kRegionsPerPage);
+    directory.pages[page].is_read = true;
+  }
 }
 
 Hash pack_id(std::span<const std::byte> directory_bytes, std::uint32_t summary_size) {

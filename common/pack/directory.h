@@ -122,6 +122,7 @@ struct Directory {
 
   /// The region's page has been read. Always so, but for a directory that parse_summary began.
   bool has(RegionId region) const { return pages.empty() || pages[page_of(region)].is_read; }
+  bool is_complete() const;                     ///< has all regions
   const PartRef* find(const PartId& id) const;  ///< null if there is no such part, or it repeats another
   std::uint32_t level_count() const;            ///< most levels of a region; 1 without levels of detail
   const NamedRegions* find_name(std::string_view name) const;  ///< null if no part is called so
@@ -149,6 +150,9 @@ Result<Directory> parse_summary(std::span<const std::byte> summary, std::uint64_
                                 std::uint32_t max_regions = 1u << 20);
 /// BadStream, with nothing read, if the bytes are not that page. Reading one again changes nothing.
 Result<void> read_page(Directory& directory, std::uint32_t page, std::span<const std::byte> bytes);
+
+/// Fills in what a directory lacks from the same pack's whole directory; what is there stays where it is.
+void complete(Directory& directory, const Directory& whole);
 
 /// The identity of the pack with this directory.
 Hash pack_id(std::span<const std::byte> directory_bytes, std::uint32_t summary_size);

@@ -35,26 +35,22 @@ std::vector<RegionId> all_regions(const Directory& directory) {
   return regions;
 }
 
-/// Which regions' bundles to send, by region.
-std::vector<bool> select_bundles(const Directory& directory, const Selection& selection,
-                                 const std::vector<bool>& is_selected) {
-  std::vector<bool> is_sent(directory.regions.size(), false);
-  if (selection.joins == Joins::None) return is_sent;
-  for (RegionId id = 0; id < directory.regions.size(); ++id) {
-    const RegionEntry& entry = directory.regions[id];
-    if (entry.bundle.size == 0) continue;
-    const bool touches_selected =
-        std::any_of(entry.lower_neighbours.begin(), entry.lower_neighbours.end(),
-                    [&](RegionId below) { return below < is_selected.size() && is_selected[below]; });
-    const bool touches_loose =
-        !entry.lower_neighbours.empty() && entry.lower_neighbours.front() == kLooseRegion;
-    is_sent[id] = selection.joins == Joins::All ? is_selected[id] || touches_selected
-                                                : is_selected[id] && (touches_selected || touches_loose);
-  }
+bool touches_loose(const RegionEntry& entry) {
+  return !entry.lower_neighbours.empty() && entry.lower_neighbours.front() == kLooseRegion;
+}
+
+/// Whether a selection brings a region's bundle. `is_selected` says which real regions it has.
+template <class IsSelected>
+bool is_bundle_sent(const Directory& directory, const Selection& selection, RegionId id,
+                    const IsSelected& is_selected) {
+  const RegionEntry& entry = directory.regions[id];
+  if (selection.joins == Joins::None || entry.bundle.size == 0) return false;
   // Triangles of loose vertices alone belong to no real region: they go with the whole model.
-  const RegionEntry& loose = directory.regions[kLooseRegion];
-  if (loose.bundle.size > 0) is_sent[kLooseRegion] = selection.kind == Selection::Kind::All;
-  return is_sent;
+  if (id == kLooseRegion) return selection.kind == Selection::Kind::All;
+  const auto& below = entry.lower_neighbours;
+  const bool touches_selected = std::any_of(below.begin(), below.end(), is_selected);
+  return selection.joins == Joins::All ? is_selected(id) || touches_selected
+                                       : is_selected(id) && (touches_selected || touches_loose(entry));
 }
 
 template <class T>
@@ -192,27 +188,72 @@ Result<std::vector<PartId>> select_parts(const Directory& directory, const Selec
   if (!regions) return forward_error(regions);
   std::vector<bool> is_selected(directory.regions.size(), false);
   for (RegionId id : *regions) is_selected[id] = true;
-  const std::vector<bool> is_bundle_sent = select_bundles(directory, selection, is_selected);
+  std::vector<bool> has_bundle(directory.regions.size(), false);
+  for (RegionId id = 0; id < directory.regions.size(); ++id) {
+    has_bundle[id] = is_bundle_sent(directory, selection, id,
+                                    [&](RegionId r) { return r < is_selected.size() && is_selected[r]; });
+  }
 
   const std::vector<std::uint8_t> level_of_region = levels_of(directory, selection);
 
   std::vector<PartId> parts;
   const RegionEntry& loose = directory.regions[kLooseRegion];
-  bool needs_loose = is_bundle_sent[kLooseRegion];
-  for (RegionId id = 1; id < directory.regions.size(); ++id) {
-    const RegionEntry& entry = directory.regions[id];
-    needs_loose |= is_bundle_sent[id] && !entry.lower_neighbours.empty() &&
-                   entry.lower_neighbours.front() == kLooseRegion;
-  }
+  bool needs_loose = has_bundle[kLooseRegion];
+  for (RegionId id = 1; id < directory.regions.size(); ++id)
+    needs_loose |= has_bundle[id] && touches_loose(directory.regions[id]);
   if (needs_loose && !loose.levels.empty()) parts.push_back({PartKind::Region, kLooseRegion, 0});
   for (RegionId id = 0; id < directory.regions.size(); ++id) {
     const RegionEntry& entry = directory.regions[id];
     if (is_selected[id]) {
       parts.push_back({PartKind::Region, id, entry.canonical_level(level_of_region[id])});
     }
-    if (is_bundle_sent[id]) parts.push_back({PartKind::Bundle, id, 0});
+    if (has_bundle[id]) parts.push_back({PartKind::Bundle, id, 0});
   }
   return parts;
+}
+
+SelectedParts::SelectedParts(const Directory& directory, Selection selection)
+    : directory_(&directory), selection_(std::move(selection)) {
+  std::ranges::sort(selection_.ids);
+  // The finest of several levels of one region comes first.
+  std::ranges::sort(selection_.levels, [](const auto& a, const auto& b) {
+    return a.what != b.what ? a.what < b.what : a.level < b.level;
+  });
+}
+
+bool SelectedParts::contains(const PartId& id) const {
+  if (id.kind == PartKind::Page || id.region >= directory_->regions.size() || !directory_->has(id.region))
+    return false;
+  if (id.kind == PartKind::Bundle) {
+    const auto& below = directory_->regions[id.region].lower_neighbours;
+    return id.level == 0 && has_bundle(id.region) &&
+           std::ranges::all_of(below, [&](RegionId r) { return directory_->has(r); });
+  }
+  if (id.region == kLooseRegion) return id.level == 0 && selection_.joins != Joins::None;
+  const RegionEntry& entry = directory_->regions[id.region];
+  return has_region(id.region) && id.level == entry.canonical_level(level_of(id.region));
+}
+
+bool SelectedParts::has_region(RegionId region) const {
+  if (region == kLooseRegion || region >= directory_->regions.size() || !directory_->has(region))
+    return false;
+  if (selection_.kind == Selection::Kind::All) return true;
+  if (selection_.kind == Selection::Kind::Ids) return std::ranges::binary_search(selection_.ids, region);
+  return meets(*directory_, region, selection_.box);
+}
+
+bool SelectedParts::has_bundle(RegionId region) const {
+  return is_bundle_sent(*directory_, selection_, region, [&](RegionId r) { return has_region(r); });
+}
+
+std::uint8_t SelectedParts::level_of(RegionId region) const {
+  const auto found = std::ranges::lower_bound(selection_.levels, region, {}, &AtLevel<RegionId>::what);
+  return found != selection_.levels.end() && found->what == region ? found->level : selection_.level;
+}
+
+Pages pages_for(const Selection& selection) {
+  const bool is_by_name = selection.kind == Selection::Kind::Ids && selection.joins != Joins::All;
+  return is_by_name ? Pages::Needed : Pages::All;
 }
 
 std::vector<PartId> with_pages(const Directory& directory, std::vector<PartId> parts, Pages pages) {

@@ -68,6 +68,30 @@ Result<std::vector<RegionId>> select_regions(const Directory& directory, const S
 /// at its level, or at the one that this repeats. The loose part comes first when a chosen bundle needs it.
 Result<std::vector<PartId>> select_parts(const Directory& directory, const Selection& selection);
 
+/// The same question for one part at a time, for whoever gets parts while pages of the directory still come.
+class SelectedParts {
+ public:
+  /// `directory` is borrowed; names must be resolved.
+  SelectedParts(const Directory& directory, Selection selection);
+
+  /// Whether select_parts lists the part. The pages that list it, and what a bundle touches, must have been
+  /// read: else the answer is no. The loose part may be taken for one of the answer that it is not.
+  bool contains(const PartId& id) const;
+  const Selection& selection() const { return selection_; }
+
+ private:
+  bool has_region(RegionId region) const;
+  bool has_bundle(RegionId region) const;
+  std::uint8_t level_of(RegionId region) const;
+
+  const Directory* directory_;
+  Selection selection_;  ///< ids and levels ascending
+};
+
+/// The pages that a client without any must ask for, so that it can tell in the end that nothing is missing:
+/// those that list what it names, or all where what is selected depends on what they list.
+Pages pages_for(const Selection& selection);
+
 /// The same parts with pages of the directory among them. What a part needs to be decoded and stitched is
 /// listed on pages that come before it.
 std::vector<PartId> with_pages(const Directory& directory, std::vector<PartId> parts, Pages pages);

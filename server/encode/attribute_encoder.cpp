@@ -55,16 +55,17 @@ void encode_anchors(EntropyEncoder& out, const RegionMesh& mesh) {
 }  // namespace
 
 // In step with decode_positions.
-std::vector<VertexId> encode_positions(const CornerTable& table, std::span<const GridPoint> positions,
+std::vector<VertexId> encode_positions(const FanTable& table, std::span<const GridPoint> positions,
                                        const GridBox& box, const CodecTables& tables, EntropyEncoder& out) {
   const Blends blends = choose_blends(table, positions, box, tables);
   out.symbol(region_model::kShape, blends.shape);
   out.symbol(region_model::kTrend, blends.trend);
   out.symbol(region_model::kTangent, blends.tangent);
   const Predictor predictor(tables, blends);
-  GeometryWalk walk(table, table.vertex_count(), box.extent());
+  GeometryWalk::Memory memory;
+  GeometryWalk walk(table, table.vertex_count(), box.extent(), memory);
   std::vector<VertexId> order;
-  for (Surroundings around; walk.next_vertex(around);) {
+  for (Surroundings around{}; walk.next_vertex(around);) {
     const GridPoint& position = positions[walk.old_number()];
     order.push_back(walk.old_number());
     if (!around.has_neighbours) {

@@ -13,7 +13,7 @@ namespace selvage {
 /// The positions of a region whose connectivity the decoder already has (docs/FORMAT.md, "Region part");
 /// `box` holds them all. Gives the vertices of `table` in the order in which the decoder will number them.
 /// Mirror: client/decode/attribute_decoder.h.
-std::vector<VertexId> encode_positions(const CornerTable& table, std::span<const GridPoint> positions,
+std::vector<VertexId> encode_positions(const FanTable& table, std::span<const GridPoint> positions,
                                        const GridBox& box, const CodecTables& tables, EntropyEncoder& out);
 /// Positions that no triangle connects.
 void encode_loose_positions(std::span<const GridPoint> positions, const GridBox& box, EntropyEncoder& out);

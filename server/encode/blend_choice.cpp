@@ -26,13 +26,14 @@ std::int64_t cost_of(const std::vector<Sample>& samples, const Predictor& predic
 }
 
 /// Every nth vertex that a parallelogram predicts. Surroundings do not depend on blends.
-std::vector<Sample> take_samples(const CornerTable& table, std::span<const GridPoint> positions,
+std::vector<Sample> take_samples(const FanTable& table, std::span<const GridPoint> positions,
                                  const GridBox& box) {
   constexpr std::size_t kMost = 1024;
   const std::size_t every = positions.size() / kMost + 1;
   std::vector<Sample> samples;
-  GeometryWalk walk(table, table.vertex_count(), box.extent());
-  for (Surroundings around; walk.next_vertex(around);) {
+  GeometryWalk::Memory memory;
+  GeometryWalk walk(table, table.vertex_count(), box.extent(), memory);
+  for (Surroundings around{}; walk.next_vertex(around);) {
     const GridPoint& position = positions[walk.old_number()];
     if (!around.has_neighbours) {
       walk.place_first(position);
@@ -47,7 +48,7 @@ std::vector<Sample> take_samples(const CornerTable& table, std::span<const GridP
 
 }  // namespace
 
-Blends choose_blends(const CornerTable& table, std::span<const GridPoint> positions, const GridBox& box,
+Blends choose_blends(const FanTable& table, std::span<const GridPoint> positions, const GridBox& box,
                      const CodecTables& tables) {
   const std::vector<Sample> samples = take_samples(table, positions, box);
   Blends best;

@@ -224,7 +224,9 @@ EncodedConnectivity encode_connectivity(const CornerTable& table, EntropyEncoder
              fold_sign(static_cast<std::int32_t>(symbols - table.triangle_count())));
   const std::vector<HandleSplit> splits = reversed(conquest.splits, symbols);
   encode_splits(out, splits);
-  ClersGrower grower(splits, symbols);
+  EncodedConnectivity encoded;
+  FanTable& grown = encoded.table;
+  ClersGrower grower(splits, symbols, grown);
   std::vector<CornerId> tip_of_grown(conquest.tips.rbegin(), conquest.tips.rend());
   for (auto symbol = conquest.symbols.rbegin(); symbol != conquest.symbols.rend(); ++symbol) {
     out.symbol(region_model::kClers + grower.context(), static_cast<unsigned>(*symbol));
@@ -232,7 +234,8 @@ EncodedConnectivity encode_connectivity(const CornerTable& table, EntropyEncoder
     assert(fits);
   }
   // Components end up on the gate stack in decoding order, that is last first.
-  for (std::uint32_t gate = 0; gate < grower.open_gates(); ++gate) {
+  const std::uint32_t components = grower.finish();
+  for (std::uint32_t gate = 0; gate < components; ++gate) {
     const CornerId closing = conquest.closing_tips[conquest.closing_tips.size() - 1 - gate];
     out.symbol(region_model::kIsClosed, closing != kNone);
     if (closing == kNone) continue;
@@ -240,13 +243,14 @@ EncodedConnectivity encode_connectivity(const CornerTable& table, EntropyEncoder
     assert(closes);
     tip_of_grown.push_back(closing);
   }
-  const CornerTable grown = std::move(grower).take();
 
   std::vector<VertexId> virtual_vertices;
-  for (CornerId c = 0; c < grown.corner_count(); ++c) {
-    const CornerId tip = tip_of_grown[triangle_of(c)];
-    const CornerId source = c % 3 == 0 ? tip : c % 3 == 1 ? next(tip) : prev(tip);
-    if (closed.table.vertex(source) >= closed.real_vertices) virtual_vertices.push_back(grown.vertex(c));
+  for (TriangleId t = 0; t < grown.triangle_count(); ++t) {
+    const CornerId source[] = {tip_of_grown[t], next(tip_of_grown[t]), prev(tip_of_grown[t])};
+    for (CornerId k = 0; k < 3; ++k) {
+      if (closed.table.vertex(source[k]) >= closed.real_vertices)
+        virtual_vertices.push_back(grown.vertex(8 * t + k));
+    }
   }
   std::sort(virtual_vertices.begin(), virtual_vertices.end());
   virtual_vertices.erase(std::unique(virtual_vertices.begin(), virtual_vertices.end()),
@@ -257,13 +261,11 @@ EncodedConnectivity encode_connectivity(const CornerTable& table, EntropyEncoder
     before = v;
   }
 
-  auto finished = finish_connectivity(grown, virtual_vertices);
-  assert(finished);
-  EncodedConnectivity encoded{std::move(finished->table), {}};
-  encoded.source_of_corner.reserve(encoded.table.corner_count());
-  for (TriangleId t = 0; t < encoded.table.triangle_count(); ++t) {
-    const CornerId tip =
-        tip_of_grown[finished->grown_of_triangle.empty() ? t : finished->grown_of_triangle[t]];
+  const auto grown_of_triangle = drop_virtual_fans(grown, virtual_vertices);
+  assert(grown_of_triangle);
+  encoded.source_of_corner.reserve(3 * std::size_t{grown.triangle_count()});
+  for (TriangleId t = 0; t < grown.triangle_count(); ++t) {
+    const CornerId tip = tip_of_grown[grown_of_triangle->empty() ? t : (*grown_of_triangle)[t]];
     encoded.source_of_corner.insert(encoded.source_of_corner.end(), {tip, next(tip), prev(tip)});
   }
   return encoded;

@@ -10,8 +10,8 @@
 namespace selvage {
 
 struct EncodedConnectivity {
-  CornerTable table;                       ///< as the decoder will have it
-  std::vector<CornerId> source_of_corner;  ///< corner of the given table, by corner of `table`
+  FanTable table;                          ///< as the decoder will have it
+  std::vector<CornerId> source_of_corner;  ///< corner of the given table, by 3 * triangle + place in `table`
 };
 
 /// Edgebreaker [Ros99; dissertation Table 5.2] with its own stack. The longest boundary loop of each

@@ -26,18 +26,20 @@ BoundaryLoops loose_loops(std::uint32_t vertices) {
 /// Vertices that grew and were merged away map to kNone.
 std::vector<VertexId> map_vertices(const EncodedConnectivity& connectivity, const CornerTable& source) {
   std::vector<VertexId> source_of_vertex(connectivity.table.vertex_count(), kNone);
-  for (CornerId c = 0; c < connectivity.table.corner_count(); ++c) {
-    source_of_vertex[connectivity.table.vertex(c)] = source.vertex(connectivity.source_of_corner[c]);
+  for (CornerId c = 0; c < connectivity.source_of_corner.size(); ++c) {
+    source_of_vertex[connectivity.table.vertex(fan_corner(c))] =
+        source.vertex(connectivity.source_of_corner[c]);
   }
   return source_of_vertex;
 }
 
 /// Vertices numbered in the order of `old_of_new`.
-void renumber_vertices(CornerTable& table, std::span<const VertexId> old_of_new) {
+CornerTable renumbered(const FanTable& table, std::span<const VertexId> old_of_new) {
   std::vector<VertexId> new_of_old(table.vertex_count(), kNone);
   for (VertexId v = 0; v < old_of_new.size(); ++v) new_of_old[old_of_new[v]] = v;
-  for (VertexId& v : table.vertex_of_corner) v = new_of_old[v];
-  table.set_corner_of_vertex(static_cast<std::uint32_t>(old_of_new.size()));
+  CornerTable result = table.plain(new_of_old);
+  result.set_corner_of_vertex(static_cast<std::uint32_t>(old_of_new.size()));
+  return result;
 }
 
 std::vector<bool> map_turned(const EncodedConnectivity& connectivity, const std::vector<bool>& is_turned) {
@@ -98,8 +100,7 @@ EncodedRegion encode_region(const RegionSource& source, const CodecTables& table
     const std::vector<VertexId> order = encode_positions(connectivity.table, positions, box, tables, out);
     for (VertexId grown : order) encoded.source_of_vertex.push_back(source_of_grown[grown]);
     mesh.is_turned = map_turned(connectivity, source.is_turned);
-    mesh.table = std::move(connectivity.table);
-    renumber_vertices(mesh.table, order);
+    mesh.table = renumbered(connectivity.table, order);
     mesh.loops = find_boundary_loops(mesh.table);
   } else {
     out.number(region_model::kLooseCount, source.table.vertex_count());

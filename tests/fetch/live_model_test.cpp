@@ -71,7 +71,7 @@ struct Viewer {
   FakeServer server;
   MeshMirror mirror;
   int updates = 0;
-  LiveModel live{server.open({}).value(), server, impatient()};
+  LiveModel live{std::make_shared<Manifest>(*server.open({}).value()), server, impatient()};
 
   FetchEvents draw = {.on_update =
                           [this](const StitchUpdate& update) {

@@ -63,7 +63,7 @@ TEST_F(ModelTest, FetchesAllOfIt) {
   ASSERT_TRUE(fetched) << fetched.error().message;
   EXPECT_TRUE(same(fetched->mesh.soup, whole_.soup));
   EXPECT_EQ(fetched->regions, model->directory().real_region_count());
-  EXPECT_GE(arrived.size(), fetched->regions);
+  EXPECT_EQ(arrived.size(), fetched->regions);
   EXPECT_GT(updates, 1);
   EXPECT_TRUE(same(mirror.soup(), whole_.soup)) << "who applies every update has the mesh";
   EXPECT_EQ(last.regions, last.of_regions);

@@ -24,6 +24,11 @@ TEST(ProgressText, CopesWithNothing) {
   EXPECT_EQ(progress_text({}, 0, 80), "[####################] 0 of 0 regions, 0 B of 0 B");
 }
 
+TEST(ProgressText, CountsWhatCameWhileTheWholeIsUnknown) {
+  const FetchProgress some{.regions = 3, .parts = 5, .bytes = 1'700'000};
+  EXPECT_EQ(progress_text(some, 425'000, 120), "[....................] 3 regions, 1.7 MB, 425 KB/s");
+}
+
 TEST(ProgressText, DoesNotPromiseWhatItDoesNotKnow) {
   EXPECT_EQ(progress_text(kHalf, 0, 120).find("left"), std::string::npos);
 }

@@ -4,7 +4,7 @@
 // sizes and hashes that no fuzzer guesses: the first byte chooses the request, then every two bytes are a
 // move,
 //
-//     'b' n      the true first frame: of the manifest, or of the nth part asked for
+//     'b' n      the true first frame: of the manifest, or of the nth part (or page) asked for
 //     'd' n      the next n + 1 true bytes, as Data; 'D' the same times 256
 //     'e' 0      the true last frame
 //     'x' n      from now on, the nth byte of every payload is wrong; 'X' 0: none is
@@ -50,8 +50,10 @@ GetRequest request(std::uint8_t choice) {
 /// The honest server's side of the play, and its lies.
 class Play {
  public:
-  Play(bool is_manifest, const GetRequest& asked) : is_manifest_(is_manifest), asked_(asked) {
+  Play(bool is_manifest, bool summary_only, const GetRequest& asked)
+      : is_manifest_(is_manifest), summary_only_(summary_only), asked_(asked) {
     parts_ = select_parts(asked.manifest->directory, asked.selection).value();
+    if (summary_only) parts_ = with_pages(asked.manifest->directory, std::move(parts_), Pages::Needed);
   }
 
   /// False when the reader has had enough.
@@ -86,7 +88,9 @@ class Play {
   bool begin(AnswerReader& reader, std::uint8_t n) {
     if (is_manifest_) {
       left_ = pack()->directory_bytes();
-      return message(reader, ManifestBegin{pack()->id(), pack()->header().summary_size, left_.size()});
+      ManifestBegin made{pack()->id(), pack()->header().summary_size, left_.size(), left_.size()};
+      if (summary_only_) left_ = left_.first(made.data_size = made.summary_size);
+      return message(reader, made);
     }
     const PartId id = parts_[n % parts_.size()];
     const PartRef& ref = *pack()->directory().find(id);
@@ -121,7 +125,7 @@ class Play {
     return complete && !*complete;
   }
 
-  const bool is_manifest_;
+  const bool is_manifest_, summary_only_;
   const GetRequest& asked_;
   std::vector<PartId> parts_;
   std::span<const std::byte> left_;
@@ -135,24 +139,36 @@ class Play {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const std::uint8_t choice = data[0];
-  const GetRequest asked = request(choice);
+  GetRequest asked = request(choice);
+  const bool is_first = (choice & 16) != 0;
+  if (is_first) asked.have.clear(), asked.unfinished.reset();
   std::set<PartId> delivered;
-  auto parts = PartsReader::for_request(asked, [&](const PartId& id, std::vector<std::byte> bytes) {
+  const auto on_part = [&](const PartId& id, std::vector<std::byte> bytes) {
     const PartRef* ref = asked.manifest->directory.find(id);
     require(ref != nullptr && check_part(*ref, bytes).has_value());
     require(delivered.insert(id).second);
-  });
-  ManifestReader manifest("row", 4096);
+  };
+  const auto summary_of = [](std::span<const std::byte> directory) {
+    return parse_summary(directory.first(pack()->header().summary_size), directory.size()).value();
+  };
+  auto parts = is_first ? PartsReader(FirstRequest{asked.selection}, on_part)
+                        : std::move(PartsReader::for_request(asked, on_part).value());
+  if (is_first && (choice & 32) == 0) parts.begin(summary_of(pack()->directory_bytes()));
+  ManifestReader manifest({.name = "row", .summary_only = is_first}, 4096,
+                          [](const Manifest& opened) -> Result<void> {
+                            require(opened.pack_id == pack()->id());
+                            return {};
+                          });
   ModelsReader models;
   const bool is_manifest = (choice & 1) != 0;
   AnswerReader& reader = choice & 8    ? static_cast<AnswerReader&>(models)
                          : is_manifest ? static_cast<AnswerReader&>(manifest)
-                                       : *parts;
-  Play play(is_manifest, asked);
+                                       : parts;
+  Play play(is_manifest, is_first, asked);
   const auto bytes = std::as_bytes(std::span(data, size));
   for (std::size_t at = 1; at + 1 < size; at += 2) {
     if (!play.move(reader, static_cast<char>(data[at]), data[at + 1], bytes.subspan(at + 2))) break;
   }
-  parts->leave_unfinished();
+  parts.leave_unfinished();
   return 0;
 }

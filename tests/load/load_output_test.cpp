@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "client/app/load_output.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -45,10 +47,27 @@ TEST(LoadOutput, TextSaysWhetherItIsCorrected) {
   EXPECT_NE(text.find("\nmet: get p99 < 2ms"), std::string::npos);
 }
 
-TEST(LoadOutput, CsvHasALineASample) {
-  EXPECT_EQ(load_csv(report()),
-            "seconds,clients,requests_per_second,bytes_per_second,errors_per_second,mean_latency_ms\n"
-            "1.000,10,400.0,2000000,0.0,0.400\n2.000,10,600.0,3000000,1.5,0.600\n");
+TEST(LoadOutput, CsvHasALineASampleAndOneAStep) {
+  using namespace std::chrono_literals;
+  LoadReport made = report();
+  made.samples[1].steps = {{"get 3,5", 7, 1ms, 2ms, 3ms, 4ms}};
+  EXPECT_EQ(
+      load_csv(made),
+      "seconds,clients,requests_per_second,bytes_per_second,errors_per_second,mean_latency_ms,step,count,"
+      "p50_ms,p90_ms,p99_ms,max_ms\n"
+      "1.000,10,400.0,2000000,0.0,0.400,,,,,,\n2.000,10,600.0,3000000,1.5,0.600,,,,,,\n"
+      "2.000,10,,,,,\"get 3,5\",7,1.000,2.000,3.000,4.000\n");
+}
+
+TEST(LoadOutput, TableHasALineAStep) {
+  using namespace std::chrono_literals;
+  LoadSample sample = report().samples[1];
+  sample.steps = {{"get all", 7, 1ms, 2ms, 3ms, 4ms}, {"open bunny", 1, 5ms, 5ms, 5ms, 5ms}};
+  const std::string table = load_table(sample);
+  EXPECT_EQ(std::ranges::count(table, '\n'), 4);
+  EXPECT_NE(table.find("10 clients, 600 requests/s, 3.0 MB/s, 1.5 errors/s"), std::string::npos) << table;
+  EXPECT_LT(table.find("p99"), table.find("get all"));
+  EXPECT_LT(table.find("3.000"), table.find("open bunny"));
 }
 
 TEST(LoadOutput, ChartEscapesWhatScriptsSay) {

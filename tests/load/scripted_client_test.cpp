@@ -74,6 +74,14 @@ TEST(ScriptedClient, StopsWhenTold) {
       run_load(parse_load_script("duration 10min\nclient a 3\nlist\nthink 1h\nloop forever").value(), options,
                stop.get_token());
   EXPECT_GE(report.samples.size(), 3u);
+  std::uint64_t listed = 0;
+  for (const LoadSample& sample : report.samples) {
+    for (const StepSample& step : sample.steps) {
+      EXPECT_EQ(step.label, "list");
+      listed += step.count;
+    }
+  }
+  EXPECT_EQ(listed, report.total().requests) << "samples leave nothing out";
 }
 
 TEST(ScriptedClient, CountsErrorsByStepAndKind) {

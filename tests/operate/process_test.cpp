@@ -271,5 +271,50 @@ TEST_F(Process, KillDuringGetLosesNothingThatArrived) {
   EXPECT_EQ(std::set<Hash>(have.begin(), have.end()).size(), have.size());
 }
 
+/// Ctrl-C ends a get at once; the next one fetches what the first did not.
+TEST_F(Process, AnInterruptedGetGoesOnFromItsCache) {
+  auto soup = shapes::torus(150, 200);
+  for (Vec3& at : soup.positions)
+    at = {static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)};
+  const auto ring = ingest(soup, {.name = "ring", .lossless = true}, serial_for(),
+                           [](const std::string&, double) { return true; });
+  ASSERT_TRUE(ring) << ring.error().message;
+  ASSERT_GT(ring->pack.size(), 96u << 10) << "the server's limit to rates lets a burst pass";
+  std::ofstream(store() / "ring.selvage", std::ios::binary)
+      .write(reinterpret_cast<const char*>(ring->pack.data()),
+             static_cast<std::streamsize>(ring->pack.size()));
+  const std::string output = (folder.path() / "ring.ply").string();
+  const std::string cache = (folder.path() / "cache").string();
+  const auto has_parts = [&] {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(
+             cache, std::filesystem::directory_options::skip_permission_denied)) {
+      if (entry.path().string().find("/parts/") != std::string::npos && entry.is_regular_file()) return true;
+    }
+    return false;
+  };
+  std::filesystem::create_directory(cache);
+  std::string address;
+  {
+    const auto slow = start_on_store({"--max-rate", "10KiB"});
+    address = slow->address().to_string();
+    ServerProcess client(SELVAGE_CLIENT, {"get", address + "/ring", "-o", output, "--cache", cache},
+                         folder.path() / "client");
+    while (!has_parts()) std::this_thread::yield();
+    EXPECT_EQ(client.end(SIGINT), 130) << client.log();
+    EXPECT_NE(client.log().find("cancelled"), std::string::npos) << client.log();
+  }
+  EXPECT_FALSE(std::filesystem::exists(output));
+
+  ServerProcess server(SELVAGE_SERVER, {"--store", store().string(), "--listen", address},
+                       folder.path() / "log");
+  EXPECT_EQ(server.address().to_string(), address);
+  const auto again = run_program(std::string(SELVAGE_CLIENT) + " get " + address + "/ring -o " + output +
+                                 " --json --cache " + cache);
+  EXPECT_EQ(again.code, 0) << again.text;
+  EXPECT_EQ(again.text.find("\"cached_parts\": 0,"), std::string::npos) << again.text;
+  EXPECT_NE(again.text.find("\"cached_parts\": "), std::string::npos) << again.text;
+  EXPECT_TRUE(std::filesystem::exists(output));
+}
+
 }  // namespace
 }  // namespace selvage

@@ -229,6 +229,138 @@ TEST_F(LyingServer, AFrontLeftOutThatNobodyHas) {
 
 /// The session of a real server breaks at its nth operation; the same get over a new connection brings the
 /// rest.
+// ---- and lie at once
+// -----------------------------------------------------------------------------------------
+
+/// What opening and getting region 2 of 3 in one flight comes to, where the server answers as `script` does:
+/// the open is request 1, the get request 2.
+Result<GetStats> open_and_get_from(Work (*script)(RawPeer&, const Pack&)) {
+  Result<GetStats> outcome = fail(ErrorCode::InvalidArgument, "no outcome");
+  SessionHarness harness;
+  auto [client_end, server_end] = make_memory_streams(harness.executor());
+  RawPeer server(std::move(server_end));
+  const auto pack = Pack::from_bytes(fake_pack_bytes(3, 1000)).value();
+  const auto serve = [](RawPeer& peer, const Pack& served, Work (*play)(RawPeer&, const Pack&)) -> Work {
+    for (const FrameType type : {FrameType::Hello, FrameType::OpenModel, FrameType::GetParts}) {
+      const auto frame = co_await peer.receive();
+      EXPECT_TRUE(frame && frame->is(type)) << "the client waits for an answer";
+    }
+    HelloAck ack;
+    ack.max_message_bytes = 100'000;
+    ack.max_ids = 100;
+    ack.idle_timeout_ms = 60'000;
+    co_await peer.send(std::move(ack));
+    co_await play(peer, served);
+    std::optional<RawPeer::Received> more = co_await peer.receive();
+    while (more) more = co_await peer.receive();
+    peer.close();
+  };
+  const auto fetch = [](std::unique_ptr<ByteStream> stream, Result<GetStats>& into) -> Work {
+    ClientOptions options;
+    options.await_greeting = false;
+    const auto session = co_await ClientSession::start(std::move(stream), options);
+    EXPECT_TRUE(session);
+    FirstRequest request;
+    request.selection.kind = Selection::Kind::Ids;
+    request.selection.ids.push_back(2);
+    request.urgency = 0;
+    auto ignore_manifest = [](const Manifest&) {};
+    into = co_await (*session)->open_and_get("row", std::move(request), ignore_manifest, ignore_part);
+    (*session)->close();
+  };
+  asio::co_spawn(harness.executor(), serve(server, *pack, script), asio::detached);
+  harness.run(fetch(std::move(client_end), outcome));
+  return outcome;
+}
+
+Work send_summary(RawPeer& server, const Pack& pack) {
+  const auto directory = pack.directory_bytes();
+  const auto summary = directory.first(pack.header().summary_size);
+  ManifestBegin begin{pack.id(), pack.header().summary_size, directory.size(), summary.size()};
+  co_await server.send(begin, 1, 0);
+  Bytes bytes(summary.begin(), summary.end());
+  co_await server.send_data(1, 1, std::move(bytes), true);
+  RequestEnd end{0, summary.size(), 0};
+  co_await server.send(end, 1, 2);
+}
+
+Work send_page(RawPeer& server, const Pack& pack, std::size_t wrong_byte) {
+  const PartRef& ref = pack.directory().pages[0].part;
+  const auto part = pack.part(ref);
+  PartBegin begin{{PartKind::Page, 0, 0}, ref.size, 0, ref.hash};
+  co_await server.send(begin, 2, 0);
+  Bytes bytes(part.begin(), part.end());
+  if (wrong_byte < bytes.size()) bytes[wrong_byte] ^= std::byte{1};
+  co_await server.send_data(2, 1, std::move(bytes), true);
+}
+constexpr std::size_t kNoByte = ~std::size_t{0};
+
+TEST(FirstFlight, TheTruthIsAccepted) {
+  const auto stats = open_and_get_from([](RawPeer& server, const Pack& pack) -> Work {
+    co_await send_summary(server, pack);
+    co_await send_page(server, pack, kNoByte);
+    co_await server.send(begin_2(pack), 2, 2);
+    co_await server.send_data(2, 3, bytes_of_2(pack), true);
+    RequestEnd end{2, 1000 + pack.directory().pages[0].part.size, 0};
+    co_await server.send(end, 2, 4);
+  });
+  ASSERT_TRUE(stats) << stats.error().message;
+  EXPECT_EQ(stats->parts, 1u);
+  EXPECT_EQ(stats->pages, 1u);
+}
+
+TEST(FirstFlight, PartsBeforeTheDirectory) {
+  const auto stats = open_and_get_from(
+      [](RawPeer& server, const Pack& pack) -> Work { co_await server.send(begin_2(pack), 2, 0); });
+  EXPECT_EQ(stats.error().code, ErrorCode::BadStream);
+}
+
+TEST(FirstFlight, APartBeforeThePageThatListsIt) {
+  const auto stats = open_and_get_from([](RawPeer& server, const Pack& pack) -> Work {
+    co_await send_summary(server, pack);
+    co_await server.send(begin_2(pack), 2, 0);
+  });
+  EXPECT_EQ(stats.error().code, ErrorCode::BadStream);
+}
+
+TEST(FirstFlight, APageThatIsAnother) {
+  const auto stats = open_and_get_from([](RawPeer& server, const Pack& pack) -> Work {
+    co_await send_summary(server, pack);
+    co_await send_page(server, pack, 10);
+  });
+  EXPECT_EQ(stats.error().code, ErrorCode::BadStream);
+}
+
+TEST(FirstFlight, AnEndBeforeAnyPage) {
+  const auto stats = open_and_get_from([](RawPeer& server, const Pack& pack) -> Work {
+    co_await send_summary(server, pack);
+    RequestEnd end{0, 0, 0};
+    co_await server.send(end, 2, 0);
+  });
+  EXPECT_FALSE(stats);
+}
+
+TEST(FirstFlight, ARegionNotAskedFor) {
+  const auto stats = open_and_get_from([](RawPeer& server, const Pack& pack) -> Work {
+    co_await send_summary(server, pack);
+    co_await send_page(server, pack, kNoByte);
+    const PartRef& ref = pack.directory().regions[3].levels[0].part;
+    PartBegin begin{{PartKind::Region, 3, 0}, ref.size, 0, ref.hash};
+    co_await server.send(begin, 2, 2);
+  });
+  EXPECT_EQ(stats.error().code, ErrorCode::BadStream);
+}
+
+TEST(FirstFlight, AModelThatIsNotThere) {
+  const auto stats = open_and_get_from([](RawPeer& server, const Pack& pack) -> Work {
+    ErrorMessage message{{ErrorCode::NotFound, "no such model"}, false};
+    co_await server.send(message, 1, 0);
+    co_await server.send(message, 2, 0);
+    (void)pack;
+  });
+  EXPECT_EQ(stats.error().code, ErrorCode::NotFound);
+}
+
 TEST(ClientSession, TakesUpAPartWhereTheLastConnectionLeftIt) {
   constexpr std::uint32_t kPartSize = 300'000;
   std::uint64_t resumed_bytes = 0;
@@ -450,6 +582,24 @@ Work use_everything(std::unique_ptr<ByteStream> stream, bool& succeeded) {
   (*session)->close();
 }
 
+/// The same for one flight.
+Work use_first_flight(std::unique_ptr<ByteStream> stream, bool& succeeded) {
+  ClientOptions options;
+  options.window_bytes = kMinInitialCredit;
+  options.await_greeting = false;
+  const auto session = co_await ClientSession::start(std::move(stream), options);
+  if (!session) co_return;
+  auto ignore_manifest = [](const Manifest&) {};
+  FirstRequest request;
+  const auto stats =
+      co_await (*session)->open_and_get("row", std::move(request), ignore_manifest, ignore_part);
+  succeeded = stats.has_value();
+  if (stats) {
+    EXPECT_EQ(stats->parts, 19u);
+  }
+  (*session)->close();
+}
+
 class NthOperation : public ::testing::TestWithParam<bool> {};
 
 TEST_P(NthOperation, FailingEndsBothSidesInGoodOrder) {
@@ -471,6 +621,22 @@ TEST_P(NthOperation, FailingEndsBothSidesInGoodOrder) {
     }
   }
   EXPECT_GT(n, 10u);
+}
+
+TEST_P(NthOperation, FailingEndsAFirstFlightInGoodOrder) {
+  bool succeeded = false;
+  std::size_t n = 0;
+  for (; !succeeded; ++n) {
+    ASSERT_LT(n, 1000u);
+    MemoryStreamOptions options;
+    options.capacity = 20'000;
+    options.read_limit = 10'000;
+    (GetParam() ? options.first_fault : options.second_fault)->fails_at = n;
+    SessionHarness harness({}, options);
+    harness.folder().put("row.selvage", fake_pack_bytes(10, 8'000));
+    harness.run(use_first_flight(harness.connect(), succeeded));
+  }
+  EXPECT_GT(n, 5u);
 }
 
 INSTANTIATE_TEST_SUITE_P(On, NthOperation, ::testing::Values(true, false),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/segment/critical_path.h"
+#include "bench/support/critical_path.h"
 
 #include <algorithm>
 #include <atomic>

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+//
+// The order in which vertices are coded. A vertex that two known triangles predict comes before one that a
+// single triangle predicts, and that before a new start. The order follows from connectivity alone; so
+// vertices are visited some way ahead of their positions.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/codec/fan_table.h"
+#include "common/codec/scratch.h"
+
+namespace selvage {
+
+/// A vertex whose turn has come, and what around it comes before. Numbers are those of the new order.
+struct Fan {
+  static constexpr unsigned kMostNeighbours = 16, kMostParallelograms = 8;
+
+  VertexId old_number;
+  unsigned triangles;
+  bool is_border;
+  unsigned neighbours;      ///< known ones; of more than kMostNeighbours the first so many
+  unsigned parallelograms;  ///< likewise
+  std::array<VertexId, kMostNeighbours> neighbour;
+  /// Of a triangle around the vertex its two other vertices, and the one across from them.
+  struct Parallelogram {
+    VertexId begin, end, across;
+  };
+  std::array<Parallelogram, kMostParallelograms> parallelogram;
+};
+
+class FanWalk {
+ public:
+  /// What a walk needs room for, kept between walks.
+  struct Memory {
+    Scratch<std::uint32_t> states;
+    Scratch<FanCorner> well, once, corners;
+  };
+
+  /// Ends after `most_vertices` at the latest. Borrows `table` and `memory`.
+  FanWalk(const FanTable& table, std::uint32_t most_vertices, Memory& memory);
+
+  // A visit is three steps, so that a decoder may put each where it would wait for something else.
+
+  /// Goes to the next vertex and turns around it; false after the last.
+  bool turn();
+  /// Puts neighbours into the queues.
+  void offer();
+  /// Numbers the vertex, and says what is known around it.
+  void gather(Fan& fan);
+
+  /// Vertices visited so far.
+  std::uint32_t count() const { return count_; }
+  /// True if no corner of the table is left.
+  bool is_complete() const { return corners_left_ == 0; }
+  /// Numbers of the vertices on the border, ascending.
+  std::span<const VertexId> border_vertices() const { return border_; }
+  /// The table with vertices numbered by visit, once the walk is complete.
+  CornerTable plain_table() const;
+
+ private:
+  /// The triangles around a vertex counter-clockwise: each one's corner at the neighbour that it begins with,
+  /// and that neighbour's state; in an open fan the last neighbour as well. Sets of them are bits, the last
+  /// one lowest, so that the neighbour that a triangle ends with is the next lower bit. Fans beyond kMost
+  /// triangles are cut short.
+  struct Ring {
+    static constexpr unsigned kMost = 62;
+    unsigned triangles = 0;
+    unsigned neighbours = 0;
+    bool is_border = false;
+    std::uint64_t unknown = 0;  ///< of the neighbours
+    std::array<FanCorner, kMost + 1> rims;
+    std::array<std::uint32_t, kMost + 1> states;
+
+    std::uint64_t all_neighbours() const { return (std::uint64_t{1} << neighbours) - 1; }
+    /// Triangles as bits of the neighbours they begin with.
+    std::uint64_t all_triangles() const { return all_neighbours() & ~std::uint64_t{neighbours - triangles}; }
+    /// Of a set of neighbours: the triangles that end with one.
+    std::uint64_t ending_with(std::uint64_t set) const { return set << 1 | set >> (neighbours - 1); }
+    unsigned place(std::uint64_t set) const {
+      return neighbours - 1 - static_cast<unsigned>(std::countr_zero(set));
+    }
+    std::uint32_t begin(unsigned place) const { return states[place]; }
+    std::uint32_t end(unsigned place) const { return states[place + 1 == neighbours ? 0 : place + 1]; }
+  };
+
+  /// A vertex's state is its new number or, above it, how many triangles predict it (kOffered, up to two)
+  /// and, if its fan is known to be closed and has up to kSteps triangles, how many they are.
+  static constexpr std::uint32_t kUnvisited = 1u << 31, kOffered = 1u << 29, kTriangles = kOffered - 1;
+  static constexpr std::uint32_t kOnce = kUnvisited + kOffered, kWell = kOnce + kOffered;
+  static constexpr unsigned kSteps = 8;
+
+  bool find_next();
+  void turn_inside(unsigned triangles);
+  void turn_slowly();
+  void look_ahead() const;
+
+  const FanTable& table_;
+  std::uint32_t most_vertices_, count_ = 0;
+  std::size_t corners_left_;
+  std::uint32_t* states_;    ///< by old number
+  FanCorner *well_, *once_;  ///< queues of corners
+  std::size_t next_well_ = 0, well_end_ = 0, next_once_ = 0, once_end_ = 0;
+  FanCorner next_seed_ = 0, current_ = kNone;
+  Ring ring_;
+  FanCorner* corner_of_visited_;
+  std::vector<VertexId> border_;
+};
+
+// Called once a vertex, from one place that matters: saving registers would be a tenth of the work.
+#define SELVAGE_ONE_CALLER [[gnu::always_inline]] inline
+
+SELVAGE_ONE_CALLER bool FanWalk::find_next() {
+  const auto is_unvisited = [&](FanCorner c) { return states_[table_.vertex(c)] >= kUnvisited; };
+  while (next_well_ < well_end_) {
+    current_ = well_[next_well_++];
+    if (is_unvisited(current_)) return true;
+  }
+  while (next_once_ < once_end_) {
+    current_ = once_[next_once_++];
+    if (is_unvisited(current_)) return true;
+  }
+  const FanCorner end = 8 * table_.triangle_count();
+  while (next_seed_ < end) {
+    current_ = next_seed_;
+    if (is_unvisited(current_)) return true;
+    next_seed_ += next_seed_ % 8 == 2 ? 6 : 1;
+  }
+  return false;
+}
+
+SELVAGE_ONE_CALLER bool FanWalk::turn() {
+  if (count_ == most_vertices_ || !find_next()) return false;
+  const unsigned triangles = states_[table_.vertex(current_)] & kTriangles;
+  if (triangles > 0) [[likely]] {
+    turn_inside(triangles);
+  } else {
+    turn_slowly();
+  }
+  look_ahead();
+  return true;
+}
+
+/// Without a branch on the number of triangles: a turn too far goes over the first ones again.
+SELVAGE_ONE_CALLER void FanWalk::turn_inside(unsigned triangles) {
+  FanCorner rim = next_on(current_);
+  std::uint64_t unknown = 0;
+  for (unsigned i = 0; i < kSteps; ++i) {
+    const std::uint32_t state = states_[table_.vertex(rim)];
+    ring_.rims[i] = rim;
+    ring_.states[i] = state;
+    unknown = unknown * 2 + (state >> 31);
+    rim = table_.turn(rim);
+  }
+  ring_.unknown = unknown >> (kSteps - triangles);
+  ring_.is_border = false;
+  ring_.neighbours = ring_.triangles = triangles;
+  corners_left_ -= triangles;
+}
+
+/// Fetches the triangles across from two unknown neighbours: nothing has touched them before.
+SELVAGE_ONE_CALLER void FanWalk::look_ahead() const {
+  for (std::uint64_t left = ring_.unknown & ring_.ending_with(ring_.unknown) & ring_.all_triangles();
+       left != 0; left &= left - 1) {
+    const FanCorner turned = table_.turn(prev_on(ring_.rims[ring_.place(left)]));
+    if (turned != kNone) table_.prefetch(turned);
+  }
+}
+
+/// Triangles that now have two known vertices will predict their third.
+SELVAGE_ONE_CALLER void FanWalk::offer() {
+  const std::uint64_t offered = (ring_.unknown ^ ring_.ending_with(ring_.unknown)) & ring_.all_triangles();
+  for (std::uint64_t left = offered; left != 0; left &= left - 1) {
+    const unsigned place = ring_.place(left);
+    const FanCorner rim = ring_.rims[place], corner = ring_.begin(place) >= kUnvisited ? rim : next_on(rim);
+    std::uint32_t& state = states_[table_.vertex(corner)];
+    // Both are written, one counts; none does if the neighbour has been offered often enough.
+    once_[once_end_] = well_[well_end_] = corner;
+    once_end_ += state < kOnce;
+    well_end_ += state < kWell && state >= kOnce;
+    state += state < kWell ? kOffered : 0;
+  }
+}
+
+SELVAGE_ONE_CALLER void FanWalk::gather(Fan& fan) {
+  const std::uint64_t known = ring_.all_neighbours() & ~ring_.unknown;
+  unsigned m = 0, n = 0;
+  for (std::uint64_t left = known; left != 0 && m < Fan::kMostNeighbours; left &= left - 1)
+    fan.neighbour[m++] = ring_.begin(ring_.place(left));
+  for (std::uint64_t left = known & ring_.ending_with(known) & ring_.all_triangles();
+       left != 0 && n < Fan::kMostParallelograms; left &= left - 1) {
+    const unsigned place = ring_.place(left);
+    const FanCorner turned = table_.turn(prev_on(ring_.rims[place]));
+    if (turned == kNone) continue;
+    const std::uint32_t across = states_[table_.vertex(next_on(turned))];
+    fan.parallelogram[n] = {ring_.begin(place), ring_.end(place), across};
+    n += across < kUnvisited;
+  }
+  fan.neighbours = m;
+  fan.parallelograms = n;
+  fan.old_number = table_.vertex(current_);
+  fan.triangles = ring_.triangles;
+  fan.is_border = ring_.is_border;
+  states_[fan.old_number] = count_;
+  corner_of_visited_[count_++] = prev_on(ring_.rims[0]);
+}
+
+#undef SELVAGE_ONE_CALLER
+
+}  // namespace selvage
