@@ -87,6 +87,10 @@ Outcome openmesh(const BenchMesh& mesh, std::size_t target) {
 
 }  // namespace
 
+#ifdef SELVAGE_HAS_CGAL
+Outcome cgal_reduce(const BenchMesh& mesh, std::size_t target);  // cgal_peer.cpp
+#endif
+
 std::vector<Simplifier> all_simplifiers() {
   const auto with_cost = [](CollapseCost cost, bool measures_deviation) {
     return [=](const BenchMesh& mesh, std::size_t target) {
@@ -94,14 +98,18 @@ std::vector<Simplifier> all_simplifiers() {
       return measured([&] { return ours(mesh, target, options); });
     };
   };
-  return {{"md", with_cost(CollapseCost::PlaneDistance, true)},
-          {"ea", with_cost(CollapseCost::EdgeArea, false)},
-          {"qem", with_cost(CollapseCost::Quadric, false)},
-          {"meshopt", meshopt},
-          {"openmesh", openmesh},
-          {"melax", [](const BenchMesh& mesh, std::size_t target) {
-             return measured([&] { return melax_reduce(mesh.soup, target); });
-           }}};
+  std::vector<Simplifier> all = {{"md", with_cost(CollapseCost::PlaneDistance, true)},
+                                 {"ea", with_cost(CollapseCost::EdgeArea, false)},
+                                 {"qem", with_cost(CollapseCost::Quadric, false)},
+                                 {"meshopt", meshopt},
+                                 {"openmesh", openmesh},
+                                 {"melax", [](const BenchMesh& mesh, std::size_t target) {
+                                    return measured([&] { return melax_reduce(mesh.soup, target); });
+                                  }}};
+#ifdef SELVAGE_HAS_CGAL
+  all.push_back({"cgal", cgal_reduce});
+#endif
+  return all;
 }
 
 }  // namespace selvage::bench

@@ -31,7 +31,7 @@ struct Simplifier {
   std::function<Outcome(const BenchMesh&, std::size_t target_triangles)> run;
 };
 
-/// "md" (ours, first), "ea", "qem", "meshopt", "openmesh", "melax".
+/// "md" (ours, first), "ea", "qem", "meshopt", "openmesh", "melax", and "cgal" where it is built in.
 std::vector<Simplifier> all_simplifiers();
 
 }  // namespace selvage::bench

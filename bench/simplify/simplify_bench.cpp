@@ -23,12 +23,10 @@
 #include <vector>
 
 #include "bench/simplify/error_plot.h"
+#include "bench/simplify/figures.h"
 #include "bench/simplify/metro.h"
 #include "bench/simplify/peers.h"
-#include "common/mesh_io/read_mesh.h"
 #include "common/render/png.h"
-#include "server/ingest/repair.h"
-#include "server/ingest/spatial_order.h"
 #include "tests/simplify/simplify_support.h"
 
 namespace selvage::bench {
@@ -41,45 +39,6 @@ struct Command {
   bool table31 = false, curve = false, special = false;
 };
 
-struct Figures {
-  std::size_t triangles = 0;
-  double hausdorff = 0, mean = 0;  // % of the diagonal
-  double seconds = 0, megabytes = 0;
-};
-
-bool load(const std::string& path, BenchMesh& mesh) {
-  auto file = read_mesh(path);
-  if (!file) return std::fprintf(stderr, "%s\n", file.error().to_string().c_str()), false;
-  auto repaired = repair(file->soup);
-  if (!repaired)
-    return std::fprintf(stderr, "%s: %s\n", path.c_str(), repaired.error().message.c_str()), false;
-  RepairedMesh ordered = spatially_ordered(std::move(*repaired));
-  mesh.name = path.substr(path.find_last_of('/') + 1);
-  mesh.soup.positions = std::move(ordered.positions);
-  for (TriangleId t = 0; t < ordered.table.triangle_count(); ++t) {
-    mesh.soup.triangles.push_back(ordered.table.triangle(t));
-  }
-  mesh.table = std::move(ordered.table);
-  return true;
-}
-
-Figures measure(const Simplifier& simplifier, const BenchMesh& mesh, double ratio, int repeats = 3) {
-  const auto target = static_cast<std::size_t>(ratio * double(mesh.soup.triangles.size()));
-  Figures figures;
-  for (int repeat = 0; repeat < repeats; ++repeat) {
-    const Outcome outcome = simplifier.run(mesh, target);
-    figures.seconds = repeat == 0 ? outcome.seconds : std::min(figures.seconds, outcome.seconds);
-    if (repeat > 0) continue;
-    figures.triangles = outcome.soup.triangles.size();
-    figures.megabytes = double(outcome.working_bytes) / (1 << 20);
-    const SurfaceDistance distance = surface_distance(mesh.soup, outcome.soup);
-    const double percent = 100 / diagonal_of(mesh.soup);
-    figures.hausdorff = distance.largest * percent;
-    figures.mean = distance.mean * percent;
-  }
-  return figures;
-}
-
 std::vector<Simplifier> chosen(const Command& command) {
   std::vector<Simplifier> simplifiers = all_simplifiers();
   if (!command.only.empty()) {
@@ -89,21 +48,6 @@ std::vector<Simplifier> chosen(const Command& command) {
   }
   return simplifiers;
 }
-
-/// Geometric means of ours over theirs.
-struct Ratios {
-  double hausdorff = 0, mean = 0, seconds = 0, megabytes = 0;
-  int count = 0;
-
-  void add(const Figures& a, const Figures& b) {
-    const auto log_ratio = [](double x, double y) { return std::log(std::max(x, 1e-9) / std::max(y, 1e-9)); };
-    hausdorff += log_ratio(a.hausdorff, b.hausdorff);
-    mean += log_ratio(a.mean, b.mean);
-    seconds += log_ratio(a.seconds, b.seconds);
-    megabytes += log_ratio(a.megabytes, b.megabytes);
-    ++count;
-  }
-};
 
 void compare(const Command& command, const std::vector<BenchMesh>& meshes, double ratio) {
   const std::vector<Simplifier> simplifiers = chosen(command);
@@ -123,10 +67,9 @@ void compare(const Command& command, const std::vector<BenchMesh>& meshes, doubl
   }
   std::printf("\ngeometric mean of %s over the other\n", simplifiers.front().name.c_str());
   for (const Simplifier& simplifier : simplifiers) {
-    const Ratios& r = over[simplifier.name];
+    const Figures r = over[simplifier.name].mean();
     std::printf("%-16s hausdorff %5.2f  mean %5.2f  CPU %6.2f  memory %5.2f\n", simplifier.name.c_str(),
-                std::exp(r.hausdorff / r.count), std::exp(r.mean / r.count), std::exp(r.seconds / r.count),
-                std::exp(r.megabytes / r.count));
+                r.hausdorff, r.mean, r.seconds, r.megabytes);
   }
   std::printf("\n");
 }

@@ -35,6 +35,7 @@ Result<Publish> describe(const PublishCommand& command) {
   what.lossless = command.lossless;
   what.bits = static_cast<std::uint8_t>(command.bits);
   what.units = command.units;
+  what.cut = command.cut;
   return what;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "client/app/server_options.h"
+#include "common/net/publish_cut.h"
 
 namespace selvage {
 
@@ -17,6 +18,7 @@ struct PublishCommand {
   int bits = 14;
   bool lossless = false;
   bool replace = false;
+  PublishCut cut;
   double retry_seconds = 60;  ///< of failing with nothing getting through; 0: never try again
   bool json = false;
   ServerOptions connection;

@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "client/app/compare_command.h"
+#include "client/app/cut_options.h"
 #include "client/app/draw_command.h"
 #include "client/app/get_command.h"
 #include "client/app/list_command.h"
@@ -143,6 +144,7 @@ void add(CLI::App& app, PublishCommand& command) {
       ->check(CLI::Range(0.0, 86'400.0))
       ->capture_default_str();
   publish.add_flag("--json", command.json, "print the result as JSON");
+  add_cut_options(publish, command.cut);
   command.connection.add_to(publish);
   publish.footer(
       "The server must be one that grants the scope 'publish' to your token. An upload that was cut off "
@@ -152,7 +154,8 @@ void add(CLI::App& app, PublishCommand& command) {
       "  SELVAGE_TOKEN=$(cat token) selvage-client publish localhost:7878 bunny.ply\n"
       "  selvage-client publish models.example.org:7878 engine.stl --tls --token-file token --name engine-2 "
       "--bits 16\n"
-      "  selvage-client publish localhost:7878 bunny.ply --replace --token-file token");
+      "  selvage-client publish localhost:7878 bunny.ply --replace --token-file token\n"
+      "  selvage-client publish localhost:7878 car.obj --segment-by groups --level-ratios 0.3,0.05");
 }
 
 void add(CLI::App& app, UnpublishCommand& command) {

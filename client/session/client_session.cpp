@@ -53,14 +53,12 @@ bool is_loopback(const asio::ip::tcp::socket& socket) {
 }  // namespace
 
 // ---- life
-// ----------------------------------------------------------------------------------------------------
 
 ClientSession::ClientSession(std::unique_ptr<ByteStream> stream, ClientOptions options)
     : stream_(std::move(stream)),
       options_(std::move(options)),
       incoming_(kMaxPayload, options_.read_bytes),
       greeting_(stream_->executor()),
-      greeted_(stream_->executor()),
       window_(options_.window_bytes) {
   server_.max_message_bytes = kUsualMessageBytes;
   server_.max_ids = kMaxIds;

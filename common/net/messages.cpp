@@ -236,6 +236,20 @@ wire::GoAway to_wire(const GoAway& message) {
   return out;
 }
 
+wire::PublishCut to_wire(const PublishCut& cut) {
+  wire::PublishCut out;
+  out.set_by(static_cast<std::uint32_t>(cut.by));
+  out.set_mode(static_cast<std::uint32_t>(cut.mode));
+  out.set_regions(cut.regions);
+  out.set_min_region(cut.min_region);
+  out.set_max_region(cut.max_region);
+  out.set_smooth(cut.smooth);
+  out.set_levels(cut.levels);
+  for (const double ratio : cut.level_ratios) out.add_level_ratios(ratio);
+  for (const double error : cut.level_errors) out.add_level_errors(error);
+  return out;
+}
+
 wire::Publish to_wire(const Publish& message) {
   wire::Publish out;
   out.set_name(message.name);
@@ -246,6 +260,7 @@ wire::Publish to_wire(const Publish& message) {
   out.set_lossless(message.lossless);
   out.set_bits(message.bits);
   out.set_units(clean(message.units));
+  *out.mutable_cut() = to_wire(message.cut);
   return out;
 }
 
@@ -469,6 +484,29 @@ bool is_file_name(const std::string& text) {
   return text != "." && text != ".." && text.find_first_of(std::string_view("/\\\0", 3)) == std::string::npos;
 }
 
+PublishCut cut_from(const wire::PublishCut& in, Check& check) {
+  PublishCut out;
+  check.that(in.by() <= PublishCut::kLastBy, "by");
+  check.that(in.mode() <= PublishCut::kLastMode, "mode");
+  out.by = static_cast<PublishCut::By>(in.by());
+  out.mode = static_cast<PublishCut::Mode>(in.mode());
+  out.regions = in.regions();
+  out.min_region = in.min_region();
+  out.max_region = in.max_region();
+  out.smooth = in.smooth();
+  out.levels = in.levels();
+  check.that(out.levels > 0 && out.levels <= kMaxLevels, "levels");
+  const auto list_from = [&](const auto& values, std::string_view field) {
+    check.that(static_cast<std::uint32_t>(values.size()) < kMaxLevels, field);
+    for (const double value : values) check.that(std::isfinite(value) && value >= 0, field);
+    return std::vector<double>(values.begin(), values.end());
+  };
+  out.level_ratios = list_from(in.level_ratios(), "level_ratios");
+  out.level_errors = list_from(in.level_errors(), "level_errors");
+  check.that(out.level_ratios.empty() || out.level_errors.empty(), "levels");
+  return out;
+}
+
 Result<Publish> from_wire(const wire::Publish& in) {
   Check check(FrameType::Publish);
   Publish out;
@@ -483,6 +521,7 @@ Result<Publish> from_wire(const wire::Publish& in) {
   out.bits = u8_from(in.bits(), 255, "bits", check);
   out.units = in.units();
   check.that(out.units.size() <= kMaxNameLength && is_printable_utf8(out.units), "units");
+  if (in.has_cut()) out.cut = cut_from(in.cut(), check);
   return check.result(std::move(out));
 }
 

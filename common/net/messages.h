@@ -14,6 +14,7 @@
 #include "common/base/hash.h"
 #include "common/base/result.h"
 #include "common/net/frame.h"
+#include "common/net/publish_cut.h"
 #include "common/pack/directory.h"
 #include "common/pack/selection.h"
 
@@ -161,6 +162,7 @@ struct Publish {
   bool lossless = false;
   std::uint8_t bits = 14;  ///< of the grid
   std::string units;
+  PublishCut cut;  ///< its numbers are finite and its lists short; ingest checks what they ask for
 };
 
 struct PublishReady {

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/base/progress_line.h"
+#include "common/base/stop_on_interrupt.h"
 #include "common/mesh_io/read_mesh.h"
 #include "common/mesh_io/write_mesh.h"
 #include "server/simplify/simplify_soup.h"
@@ -91,9 +92,12 @@ Result<void> run(const SimplifyCommand& command) {
 
   const LevelTarget target = target_of(command, file->soup.triangles.size());
   ProgressLine line;
+  const StopOnInterrupt interrupt;
   const auto begin = std::chrono::steady_clock::now();
-  auto result = simplify_soup(file->soup, target, command.options,
-                              [&](double done) { line.show(fmt::format("simplify {:.0f} %", 100 * done)); });
+  auto result = simplify_soup(file->soup, target, command.options, [&](double done) {
+    line.show(fmt::format("simplify {:.0f} %", 100 * done));
+    return !interrupt.token().stop_requested();
+  });
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
   line.wipe();
   if (!result) return forward_error(result, command.model.string());

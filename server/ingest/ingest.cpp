@@ -172,8 +172,10 @@ Result<IngestedModel> ingest(const TriangleSoup& soup, const IngestOptions& opti
   });
   const Grid grid = make_grid(mesh.positions, options.bits);
   const LevelledMesh levels = clock.run("simplify", [&] {
-    return make_levels(mesh, partition, grid, options.levels, parallel,
-                       [&](double done) { clock.report("simplify", done); });
+    return make_levels(mesh, partition, grid, options.levels, parallel, [&](double done) {
+      clock.report("simplify", done);
+      return !clock.is_cancelled();
+    });
   });
   if (clock.is_cancelled()) return cancelled();
   const double parts = (2.0 + static_cast<double>(options.levels.size())) * (partition.region_count + 1);

@@ -9,12 +9,19 @@
 #include "common/base/replace_file.h"
 #include "common/mesh_io/read_mesh.h"
 #include "server/ingest/repair_notes.h"
+#include "server/publish/publish_options.h"
 
 namespace selvage {
 namespace {
 
 /// In a published pack's metadata: what it was made from, so that a repeated request is known as such.
 constexpr const char* kSourceHash = "source_hash";
+constexpr const char* kCut = "cut";
+
+std::string metadata_of(const Directory& directory, const char* key) {
+  const auto found = directory.metadata.find(key);
+  return found == directory.metadata.end() ? std::string() : found->second;
+}
 
 Result<void> check_hash(const Publish& request, const std::filesystem::path& upload,
                         const Progress& progress) {
@@ -55,10 +62,9 @@ Error name_in_use(const std::string& name) {
 }
 
 bool is_result_of(const Directory& directory, const Publish& request) {
-  const auto source = directory.metadata.find(kSourceHash);
-  return source != directory.metadata.end() && source->second == request.hash.to_hex() &&
-         directory.grid.bits == request.bits && directory.is_exact == request.lossless &&
-         directory.units == request.units;
+  return metadata_of(directory, kSourceHash) == request.hash.to_hex() &&
+         metadata_of(directory, kCut) == to_text(request.cut) && directory.grid.bits == request.bits &&
+         directory.is_exact == request.lossless && directory.units == request.units;
 }
 
 Published describe(const Publish& request, const Pack& pack) {
@@ -78,13 +84,11 @@ Result<Published> publish_mesh(const Publish& request, const PublishPaths& paths
   progress("read", 0);
   auto file = read_mesh(paths.upload);
   if (!file) return tl::unexpected(as_publisher_knows(std::move(file.error()), request, paths.upload));
-  IngestOptions options;
-  options.name = request.name;
-  options.units = request.units;
-  options.metadata = {{kSourceHash, request.hash.to_hex()}};
-  options.bits = request.bits;
-  options.lossless = request.lossless;
-  auto model = ingest(file->soup, options, parallel, progress);
+  auto options = ingest_options(request, *file);
+  if (!options) return forward_error(options, request.file);
+  options->metadata[kSourceHash] = request.hash.to_hex();
+  if (const std::string cut = to_text(request.cut); !cut.empty()) options->metadata[kCut] = cut;
+  auto model = ingest(file->soup, *options, parallel, progress);
   if (!model) return forward_error(model, model.error().code == ErrorCode::Cancelled ? "" : request.file);
   if (!progress("write", 0)) return fail(ErrorCode::Cancelled, "cancelled");
 

@@ -8,6 +8,7 @@
 #include "common/base/replace_file.h"
 #include "common/mesh_io/read_mesh.h"
 #include "server/publish/publish_mesh.h"
+#include "server/publish/publish_options.h"
 
 namespace selvage {
 namespace {
@@ -23,7 +24,8 @@ std::string key_of(const Publish& request, const std::string& who) {
   std::string all;
   for (const std::string& part :
        {who, request.name, request.hash.to_hex(), std::to_string(request.size_bytes), request.units,
-        std::to_string(request.bits), std::string(request.lossless ? "lossless" : "")}) {
+        std::to_string(request.bits), std::string(request.lossless ? "lossless" : ""),
+        to_text(request.cut)}) {
     all += std::to_string(part.size()) + ':' + part;
   }
   return hash_of(std::as_bytes(std::span(all))).to_hex() +

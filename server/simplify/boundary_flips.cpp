@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "server/simplify/boundary_flips.h"
 
+#include <algorithm>
+#include <array>
 #include <numeric>
 
 namespace selvage {
@@ -20,18 +22,11 @@ BoundaryFlips::BoundaryFlips(const CornerTable& mesh, std::span<const Vec3> posi
   if (region_of_vertex.empty()) return;
   next_on_way_.resize(mesh.vertex_count());
   std::iota(next_on_way_.begin(), next_on_way_.end(), 0u);
-  first_of_vertex_.assign(mesh.vertex_count(), kNone);
-  last_of_vertex_.assign(mesh.vertex_count(), kNone);
+  triangles_ = GatheredLists<TriangleId>(mesh.vertex_count());
   for (TriangleId t = 0; t < mesh.triangle_count(); ++t) {
     const auto [a, b, c] = mesh.triangle(t);
     if (region_of_vertex[a] == region_of_vertex[b] && region_of_vertex[a] == region_of_vertex[c]) continue;
-    for (const VertexId v : {a, b, c}) {
-      const auto entry = static_cast<std::uint32_t>(triangle_.size());
-      triangle_.push_back(t);
-      next_.push_back(first_of_vertex_[v]);
-      if (first_of_vertex_[v] == kNone) last_of_vertex_[v] = entry;
-      first_of_vertex_[v] = entry;
-    }
+    for (const VertexId v : {a, b, c}) triangles_.add(v, t);
   }
 }
 
@@ -65,26 +60,17 @@ bool BoundaryFlips::keeps_normal(TriangleId t, VertexId u, VertexId v,
 }
 
 bool BoundaryFlips::keep_normals(VertexId u, VertexId v, std::span<const std::vector<VertexId>> published) {
-  for (std::uint32_t at = first_of_vertex_[u]; at != kNone; at = next_[at]) {
-    if (!keeps_normal(triangle_[at], u, v, {})) return false;
-    for (const auto& level : published) {
-      if (!keeps_normal(triangle_[at], u, v, level)) return false;
-    }
-  }
-  return true;
+  return triangles_.all_of(u, [&](TriangleId t) {
+    return keeps_normal(t, u, v, {}) &&
+           std::all_of(published.begin(), published.end(),
+                       [&](const auto& level) { return keeps_normal(t, u, v, level); });
+  });
 }
 
 void BoundaryFlips::collapse(VertexId u, VertexId v) {
-  if (first_of_vertex_.empty()) return;
+  if (triangles_.is_empty()) return;
   next_on_way_[u] = v;
-  if (first_of_vertex_[u] == kNone) return;
-  if (first_of_vertex_[v] == kNone) {
-    first_of_vertex_[v] = first_of_vertex_[u];
-  } else {
-    next_[last_of_vertex_[v]] = first_of_vertex_[u];
-  }
-  last_of_vertex_[v] = last_of_vertex_[u];
-  first_of_vertex_[u] = last_of_vertex_[u] = kNone;
+  triangles_.collapse(u, v);
 }
 
 }  // namespace selvage

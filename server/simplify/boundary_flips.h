@@ -16,6 +16,7 @@
 #include "common/base/ids.h"
 #include "common/mesh/corner_table.h"
 #include "common/mesh/vec3.h"
+#include "server/simplify/gathered_lists.h"
 
 namespace selvage {
 
@@ -39,10 +40,8 @@ class BoundaryFlips {
   const CornerTable& mesh_;
   std::span<const Vec3> positions_;
   std::span<const RegionId> region_of_vertex_;
-  std::vector<VertexId> next_on_way_;  ///< by vertex: where it went, itself if nowhere; paths get shorter
-  // A list a vertex of the finest corners of boundary triangles that have come to it.
-  std::vector<std::uint32_t> first_of_vertex_, last_of_vertex_, next_;
-  std::vector<TriangleId> triangle_;
+  std::vector<VertexId> next_on_way_;    ///< by vertex: where it went, itself if nowhere; paths get shorter
+  GatheredLists<TriangleId> triangles_;  ///< boundary triangles of the finest mesh, by corner
 };
 
 }  // namespace selvage

@@ -23,6 +23,7 @@
 
 #include "common/base/ids.h"
 #include "common/mesh/corner_table.h"
+#include "server/simplify/gathered_lists.h"
 #include "server/simplify/stamps.h"
 
 namespace selvage {
@@ -49,10 +50,7 @@ class BridgeLinks {
   bool has_one_common_neighbour(VertexId u, VertexId v, std::span<const VertexId> representative_of_vertex,
                                 Stamps& stamps) const;
 
-  // A list a vertex of the finest vertices at the far ends of bridge edges that lead to it by now.
-  std::vector<std::uint32_t> first_of_vertex_, last_of_vertex_;
-  std::vector<VertexId> far_end_;
-  std::vector<std::uint32_t> next_;
+  GatheredLists<VertexId> far_ends_;  ///< finest vertices at the far ends of bridge edges, by near end
   std::vector<std::vector<VertexId>> published_;
 };
 

@@ -19,7 +19,11 @@
 namespace selvage {
 namespace {
 
-constexpr std::uint32_t kCollapsesBetweenReports = 4096;
+constexpr std::uint32_t kStepsBetweenReports = 4096;
+/// Far from the goal, collapses may be so much dearer than the cheapest. What comes too early is made up for
+/// by the time that the rest is as dear, so the last stretch is in strict order: so many times the goal.
+constexpr double kPatience = 1.5;
+constexpr double kExactFrom = 1.3;
 
 double mean_area_of(const CornerTable& mesh, std::span<const Vec3> positions) {
   double sum = 0;
@@ -39,9 +43,10 @@ double mean_area_of(const CornerTable& mesh, std::span<const Vec3> positions) {
 /// again before the collapse.
 class Run {
  public:
-  Run(const SimplifyInput& input, const SimplifyOptions& options);
+  Run(const SimplifyInput& input, const SimplifyOptions& options, std::uint32_t last_target,
+      const SimplifyProgress& progress);
 
-  void reach(const LevelTarget& target, const SimplifyProgress& progress);
+  void reach(const LevelTarget& target);
   Simplification take() { return std::move(result_); }
 
  private:
@@ -55,6 +60,7 @@ class Run {
   void step(double max_squared_deviation);
   void collapse(std::uint32_t place);
   void close_level();
+  bool is_to_stop();
 
   const SimplifyInput& input_;
   const SimplifyOptions options_;
@@ -76,6 +82,11 @@ class Run {
   double largest_squared_deviation_ = 0;
   Simplification result_;
 
+  const std::uint32_t last_target_;
+  const SimplifyProgress& progress_;
+  std::uint32_t steps_ = 0;
+  bool is_stopped_ = false;
+
   struct Candidate {
     double cost;
     std::uint32_t place;
@@ -87,7 +98,8 @@ class Run {
   Stamps stamps_;
 };
 
-Run::Run(const SimplifyInput& input, const SimplifyOptions& options)
+Run::Run(const SimplifyInput& input, const SimplifyOptions& options, std::uint32_t last_target,
+         const SimplifyProgress& progress)
     : input_(input),
       options_(options),
       flip_(options.flip.value_or(options.cost == CollapseCost::EdgeArea ? FlipTest::Concave
@@ -102,9 +114,11 @@ Run::Run(const SimplifyInput& input, const SimplifyOptions& options)
       target_of_vertex_(input.mesh.vertex_count(), kNone),
       state_of_vertex_(input.mesh.vertex_count(), State::Dirty),
       squared_deviation_of_vertex_(input.mesh.vertex_count(), 0),
+      last_target_(last_target),
+      progress_(progress),
       stamps_(input.mesh.vertex_count()) {
   if (options.cost == CollapseCost::Quadric) quadrics_.emplace(input.mesh, input.positions);
-  for (VertexId v = 0; v < input.mesh.vertex_count(); ++v) price(v);
+  for (VertexId v = 0; v < input.mesh.vertex_count() && !is_to_stop(); ++v) price(v);
   close_level();
 }
 
@@ -210,19 +224,28 @@ void Run::collapse(std::uint32_t place) {
   }
 }
 
-void Run::reach(const LevelTarget& target, const SimplifyProgress& progress) {
+/// Pricing the vertices at first takes a quarter of the time.
+bool Run::is_to_stop() {
+  if (!progress_ || ++steps_ % kStepsBetweenReports != 0) return is_stopped_;
+  const double all = input_.mesh.triangle_count() - std::min(last_target_, input_.mesh.triangle_count());
+  const double gone = input_.mesh.triangle_count() - mesh_.triangle_count();
+  const double priced = steps_ < input_.mesh.vertex_count() ? double(steps_) / input_.mesh.vertex_count() : 1;
+  is_stopped_ = is_stopped_ || !progress_(0.25 * priced + (all > 0 ? 0.75 * gone / all : 0));
+  return is_stopped_;
+}
+
+void Run::reach(const LevelTarget& target) {
   for (const VertexId v : std::exchange(parked_, {})) {
     if (!queue_.contains(v)) price(v);
   }
   const double max_squared_deviation = target.max_deviation * target.max_deviation;
-  const std::uint32_t before = mesh_.triangle_count();
-  std::uint32_t steps = 0;
-  while (mesh_.triangle_count() > target.triangles && !queue_.is_empty()) {
+  bool is_patient = false;
+  while (mesh_.triangle_count() > target.triangles && !queue_.is_empty() && !is_to_stop()) {
+    const bool is_far = mesh_.triangle_count() > kExactFrom * target.triangles;
+    if (is_patient != is_far) queue_.set_patience((is_patient = is_far) ? kPatience : 1);
     step(max_squared_deviation);
-    if (progress && ++steps % kCollapsesBetweenReports == 0) {
-      progress(double(before - mesh_.triangle_count()) / (before - target.triangles));
-    }
   }
+  queue_.set_patience(1);
   close_level();
 }
 
@@ -239,8 +262,8 @@ void Run::close_level() {
 
 Simplification simplify(const SimplifyInput& input, std::span<const LevelTarget> targets,
                         const SimplifyOptions& options, const SimplifyProgress& progress) {
-  Run run(input, options);
-  for (const LevelTarget& target : targets) run.reach(target, progress);
+  Run run(input, options, targets.empty() ? 0 : targets.back().triangles, progress);
+  for (const LevelTarget& target : targets) run.reach(target);
   return run.take();
 }
 

@@ -81,8 +81,9 @@ struct Simplification {
   std::vector<SimplifiedLevel> levels;  ///< [0] is the input, then one a target
 };
 
-/// From 0 to 1, some hundred times.
-using SimplifyProgress = std::function<void(double done)>;
+/// Called now and then with how much is done, from 0 to 1. False: it is to stop; what comes back is then
+/// worth nothing.
+using SimplifyProgress = std::function<bool(double done)>;
 
 /// Runs through the targets, coarsest last; one that is met already repeats the level before. Deterministic.
 /// Takes O(n log n) for n triangles, memory of about 50 bytes a triangle beyond the input.

@@ -65,8 +65,13 @@ Result<SimplifiedSoup> simplify_soup(const TriangleSoup& soup, const LevelTarget
   if (!repaired) return forward_error(repaired);
   const RepairedMesh mesh = spatially_ordered(std::move(*repaired));
   const std::vector<VertexId> pinned = copies_of_split_vertices(mesh, soup.positions.size());
+  bool is_stopped = false;
   const Simplification simplification =
-      simplify({mesh.table, mesh.positions, {}, pinned}, {&target, 1}, options, progress);
+      simplify({mesh.table, mesh.positions, {}, pinned}, {&target, 1}, options, [&](double done) {
+        is_stopped = is_stopped || (progress && !progress(done));
+        return !is_stopped;
+      });
+  if (is_stopped) return fail(ErrorCode::Cancelled, "cancelled");
 
   const auto count = static_cast<std::uint32_t>(simplification.collapses.size());
   const auto representative =

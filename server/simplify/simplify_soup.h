@@ -30,7 +30,7 @@ struct SimplifiedSoup {
 /// opens.
 ///
 /// A model whose components are all as simple as they can be (a tetrahedron, a triangle) stays above the
-/// target. Fails as repair does.
+/// target. Fails as repair does; Cancelled if `progress` says stop.
 Result<SimplifiedSoup> simplify_soup(const TriangleSoup& soup, const LevelTarget& target,
                                      const SimplifyOptions& options = {},
                                      const SimplifyProgress& progress = {});

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // How far triangles reach from a surface, as a bound and not as a sample: the distance from one triangle is
-// convex, so a convex piece lies as near to it as its corners do. A piece that the triangle nearest to its
-// middle does not cover is clipped to that triangle's prism, and what is outside looks for another one
-// [compare Guthe et al. 2005, Tang et al. 2009].
+// convex, so a convex piece lies as near to it as its corners do. A piece walks over the surface to the
+// triangle that its middle is over; what of it that one does not cover is clipped off, and goes on to the
+// triangle next door [compare Guthe et al. 2005, Tang et al. 2009]. Only where walking does not help, in
+// creases and at borders, is the nearest triangle searched for.
 #pragma once
 
 #include <array>
@@ -12,84 +13,73 @@
 #include <vector>
 
 #include "common/base/ids.h"
-#include "common/mesh/triangle_soup.h"
 #include "common/mesh/vec3.h"
-#include "server/simplify/point_triangle.h"
+#include "server/simplify/near_surface.h"
 
 namespace selvage {
 
-/// Triangles to find near ones among. A tree of boxes over the triangles in their order: cheap to build, and
-/// as good as the order is (see spatially_ordered). Immutable, so threads may share it.
-class TriangleTree {
- public:
-  /// Both are borrowed. `triangles` must not be empty.
-  TriangleTree(std::span<const Triangle> triangles, std::span<const Vec3> positions);
+struct ConvexPiece {
+  static constexpr std::uint32_t kMost = 12;
+  std::array<Vec3, kMost> corners;
+  std::uint32_t count = 0;
 
-  struct Near {
-    std::uint32_t triangle;
-    double squared_distance;
-  };
-  /// A node still to be looked into, and how far its box is, squared.
-  struct Open {
-    std::uint32_t node;
-    double squared_distance;
-  };
-  /// The triangle nearest to p among those nearer than `nearer_than`, squared; kNone if there is none.
-  /// `stack` is scratch.
-  Near nearest(const Vec3& p, double nearer_than, std::vector<Open>& stack) const;
-  PreparedTriangle prepared(std::uint32_t i) const;
-
- private:
-  struct Box {
-    Vec3 low, high;
-    double squared_distance(const Vec3& p) const {
-      const auto past = [](double at, double from, double to) {
-        const double below = from - at, above = at - to;
-        const double most = below > above ? below : above;
-        return most > 0 ? most * most : 0;
-      };
-      return past(p.x, low.x, high.x) + past(p.y, low.y, high.y) + past(p.z, low.z, high.z);
-    }
-  };
-
-  std::span<const Triangle> triangles_;
-  std::span<const Vec3> positions_;
-  std::uint32_t leaves_ = 1;  // a power of two
-  std::vector<Box> boxes_;    // of node n: children 2n and 2n + 1; leaves from leaves_ on
+  void push(const Vec3& p) { corners[count++] = p; }
+  Vec3 middle() const;
+  /// At least half its diameter.
+  double extent() const;
 };
 
-/// A bound on how far the triangles given to it are from a surface. It rises as they come, never more than
+/// What a piece may lie on: a surface, or those of its triangles that are inside one region.
+struct CoverTarget {
+  const NearSurface* surface;
+  RegionId only = kNone;
+};
+
+/// A piece that came to lie on `triangle` of the first target, outside of the region it belongs to.
+struct Stray {
+  ConvexPiece piece;
+  std::uint32_t triangle;
+};
+
+/// A bound on how far the pieces given to it are from its targets. It rises as they come, never more than
 /// they force it to but for a tenth.
 class CoverBound {
  public:
-  /// What lies within `begin` > 0 of the surface makes no difference.
-  CoverBound(const TriangleTree& surface, double begin) : surface_(surface), bound_(begin) {}
+  /// What lies within `begin` > 0 of the targets makes no difference. `targets` are borrowed, and not empty.
+  CoverBound(std::span<const CoverTarget> targets, double begin) : targets_(targets), bound_(begin) {}
+
+  /// From now on strays from `home` are put there too.
+  void keep_strays(RegionId home, std::vector<Stray>& strays) { home_ = home, strays_ = &strays; }
 
   void add(const Vec3& a, const Vec3& b, const Vec3& c);
+  void add(const ConvexPiece& piece);
   double bound() const { return bound_; }
 
  private:
-  /// A convex polygon.
-  struct Piece {
-    static constexpr std::uint32_t kMost = 12;
-    std::array<Vec3, kMost> corners;
-    std::uint32_t count = 0;
-    void push(const Vec3& p) { corners[count++] = p; }
-    Vec3 middle() const;
-    double extent() const;
+  struct Place {
+    std::uint32_t target = 0, triangle = kNone;
+  };
+  struct Work {
+    ConvexPiece piece;
+    Place near;  ///< where to look first
   };
 
-  double reach(const PreparedTriangle& triangle, const Piece& piece) const;
-  void cover(const Piece& piece);
-  bool clip_to(const PreparedTriangle& triangle, Piece piece);
-  void halve(const Piece& piece);
-  static void cut(const Piece& piece, const Vec3& normal, double offset, Piece& above, Piece& below);
+  void cover(const Work& work);
+  PreparedTriangle walk(Place& place, const Vec3& to) const;
+  bool lands(const ConvexPiece& piece, const PreparedTriangle& triangle, const Place& place);
+  bool clip_to(const PreparedTriangle& triangle, const Place& place, ConvexPiece piece);
+  void halve(const ConvexPiece& piece, const Place& near);
+  void note(const ConvexPiece& piece, const Place& place);
+  double search(const Vec3& p, double nearer_than, Place& place);
+  bool is_open_to(std::uint32_t target, std::uint32_t triangle) const;
 
-  const TriangleTree& surface_;
+  std::span<const CoverTarget> targets_;
   double bound_;
-  std::uint32_t last_ = 0;  // nearest to the piece before, and so likely near the next
-  std::vector<Piece> pieces_;
-  std::vector<TriangleTree::Open> stack_;
+  Place last_;  // of the piece before, and so likely near the next
+  std::vector<Work> pile_;
+  std::vector<NearSurface::Open> stack_;
+  RegionId home_ = kNone;
+  std::vector<Stray>* strays_ = nullptr;
 };
 
 }  // namespace selvage

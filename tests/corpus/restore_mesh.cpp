@@ -100,6 +100,58 @@ Selection random_subset(const Directory& directory, std::mt19937& random) {
   return selection;
 }
 
+/// What levels of detail must not make worse.
+struct EdgeFaults {
+  std::size_t borders = 0;  ///< edges with an odd number of triangles
+  std::size_t repeats = 0;  ///< more than one triangle walking an edge in one direction, counted each
+};
+EdgeFaults faults_of(const std::vector<Triangle>& triangles) {
+  std::vector<std::pair<VertexId, VertexId>> walked, edges;
+  for (const Triangle& t : triangles) {
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      walked.emplace_back(t[k], t[(k + 1) % 3]);
+      edges.push_back(std::minmax(t[k], t[(k + 1) % 3]));
+    }
+  }
+  EdgeFaults faults;
+  std::sort(walked.begin(), walked.end());
+  for (std::size_t i = 1; i < walked.size(); ++i) faults.repeats += walked[i] == walked[i - 1];
+  std::sort(edges.begin(), edges.end());
+  for (auto at = edges.begin(); at != edges.end();) {
+    const auto end = std::upper_bound(at, edges.end(), *at);
+    faults.borders += (end - at) % 2;
+    at = end;
+  }
+  return faults;
+}
+
+/// Every region at a level drawn for it. Replacing vertices maps cycles to cycles, so a mix has no more
+/// border than the file, and none if the file is closed, however little of a manifold that is.
+std::string check_mix(Fetcher& fetcher, const TriangleSoup& soup, std::mt19937& random) {
+  const Directory& directory = fetcher.directory();
+  Selection mix;
+  for (RegionId id = 1; id <= directory.real_region_count(); ++id)
+    mix.levels.push_back({id, static_cast<std::uint8_t>(random() % directory.level_count())});
+  mix.kind = Selection::Kind::Ids;
+  for (RegionId id = 1; id <= directory.real_region_count(); ++id) mix.ids.push_back(id);
+  mix.joins = Joins::All;
+  if (auto ok = fetcher.fetch(mix); !ok) return ok.error().to_string();
+  const auto mesh = fetcher.stitch(mix, random);
+  if (!mesh) return mesh.error().to_string();
+  for (const Triangle& t : mesh->soup.triangles) {
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return "a mix of levels has a triangle that is a line";
+  }
+  const EdgeFaults before = faults_of(soup.triangles), after = faults_of(mesh->soup.triangles);
+  if (after.borders > before.borders) {
+    return fmt::format("a mix of levels has {} border edges, the file {}", after.borders, before.borders);
+  }
+  const bool is_manifold = before.repeats == 0 && directory.source.cut_vertices == 0;
+  if (is_manifold && after.repeats > 0)
+    return fmt::format("a mix of levels walks {} edges twice in one direction", after.repeats);
+  return {};
+}
+
 /// Empty if all is as it must be.
 std::string check_fetches(Fetcher& fetcher, const Pack& pack, const TriangleSoup& soup,
                           std::mt19937& random) {
@@ -118,7 +170,10 @@ std::string check_fetches(Fetcher& fetcher, const Pack& pack, const TriangleSoup
   if (auto ok = fetcher.fetch({}); !ok) return ok.error().to_string();
   const auto whole = fetcher.stitch({}, random);
   if (!whole) return whole.error().to_string();
-  return compare_meshes(soup, whole->soup, directory.grid.step / 2).difference;
+  std::string difference = compare_meshes(soup, whole->soup, directory.grid.step / 2).difference;
+  for (int round = 0; round < 4 && difference.empty() && directory.real_region_count() > 0; ++round)
+    difference = check_mix(fetcher, soup, random);
+  return difference;
 }
 
 }  // namespace
@@ -127,8 +182,9 @@ Result<Restoration> restore_mesh(const std::filesystem::path& path, std::uint32_
   auto file = read_mesh(path);
   if (!file) return forward_error(file);
   const auto begin = Clock::now();
-  auto model =
-      ingest(file->soup, {.name = kModel}, threaded_for(0), [](const std::string&, double) { return true; });
+  IngestOptions options{.name = kModel};
+  options.levels = usual_levels(3);
+  auto model = ingest(file->soup, options, threaded_for(0), [](const std::string&, double) { return true; });
   if (!model) return forward_error(model, path.string());
   Restoration result;
   result.pack_seconds = std::chrono::duration<double>(Clock::now() - begin).count();

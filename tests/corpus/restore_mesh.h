@@ -17,8 +17,8 @@ struct Restoration {
 };
 
 /// Packs the file, serves it on loopback, fetches random subsets of its regions in random order, then the
-/// rest, stitches, and compares with the file's own triangles. An error means that the file was refused as a
-/// mesh.
+/// rest, stitches, and compares with the file's own triangles; then regions at random levels, which must
+/// leave no hole that the file has not. An error means that the file was refused as a mesh.
 Result<Restoration> restore_mesh(const std::filesystem::path& path, std::uint32_t seed);
 
 }  // namespace selvage

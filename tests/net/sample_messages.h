@@ -86,7 +86,16 @@ inline GoAway sample() {
 
 template <>
 inline Publish sample() {
-  return {"bunny", "bunny.ply", 123'456, sample_hash(8), true, true, 12, "mm"};
+  PublishCut cut;
+  cut.by = PublishCut::By::Components;
+  cut.mode = PublishCut::Mode::Cad;
+  cut.regions = 7;
+  cut.min_region = 100;
+  cut.max_region = 5000;
+  cut.smooth = true;
+  cut.levels = 3;
+  cut.level_ratios = {0.25, 0.0625};
+  return {"bunny", "bunny.ply", 123'456, sample_hash(8), true, true, 12, "mm", cut};
 }
 template <>
 inline PublishReady sample() {

@@ -120,6 +120,48 @@ TEST_F(PublisherTest, TheSameAgainIsDoneAlready) {
   Publish finer = request_for(torus, "torus");
   finer.bits = 16;
   EXPECT_FALSE(publisher->begin(finer, "tester"));
+  Publish in_more_levels = request_for(torus, "torus");
+  in_more_levels.cut.levels = 3;
+  EXPECT_FALSE(publisher->begin(in_more_levels, "tester"));
+}
+
+TEST_F(PublisherTest, CutsAsThePublisherWants) {
+  start();
+  const auto publish = [&](const std::string& name, const PublishCut& cut) {
+    Publish request = request_for(torus, name);
+    request.cut = cut;
+    Outcome outcome;
+    auto begun = publisher->begin(request, "tester").value();
+    EXPECT_TRUE(begun->append(bytes_of(torus)));
+    EXPECT_TRUE(begun->submit(outcome.events()));
+    return outcome.wait();
+  };
+  PublishCut cut;
+  cut.max_region = 150;
+  cut.level_ratios = {0.5, 0.25};
+  ASSERT_TRUE(publish("cut", cut));
+  const Directory directory = store->open("cut").value()->directory();
+  EXPECT_EQ(directory.level_count(), 3u);
+  EXPECT_GE(directory.real_region_count(), 4u);
+  // The same again is known, cut and all.
+  Publish again = request_for(torus, "cut");
+  again.cut = cut;
+  EXPECT_EQ(publisher->begin(again, "tester").value()->held(), torus.size());
+
+  PublishCut by_components;
+  by_components.by = PublishCut::By::Components;
+  ASSERT_TRUE(publish("piece", by_components));
+  EXPECT_EQ(store->open("piece").value()->directory().names.at(0).name, "component_1");
+
+  PublishCut impossible;
+  impossible.level_ratios = {0.25, 0.5};
+  EXPECT_EQ(publish("impossible", impossible).error().code, ErrorCode::InvalidArgument);
+  PublishCut by_groups;
+  by_groups.by = PublishCut::By::Groups;
+  const auto nameless = publish("nameless", by_groups);
+  ASSERT_FALSE(nameless);
+  EXPECT_EQ(nameless.error().code, ErrorCode::BadFile);
+  EXPECT_NE(nameless.error().message.find("mesh.obj"), std::string::npos) << nameless.error().message;
 }
 
 TEST_F(PublisherTest, ANameInUseIsRefusedUnlessReplaced) {

@@ -10,10 +10,10 @@
 
 #include "common/mesh/boundary_loops.h"
 #include "common/mesh/grid.h"
-#include "common/samples/samples.h"
 #include "server/segment/check_partition.h"
 #include "server/segment/regularise.h"
 #include "tests/simplify/simplify_support.h"
+#include "tests/support/labelled_shapes.h"
 #include "tests/support/random_meshes.h"
 #include "tests/support/shapes.h"
 
@@ -45,19 +45,8 @@ LabelledMesh labelled(std::string name, const TriangleSoup& soup, double cell) {
 
 std::vector<LabelledMesh> models() {
   std::vector<LabelledMesh> all;
-  all.push_back(labelled("torus", shapes::torus(30, 90), 1.1));
-  all.push_back(labelled("sphere", shapes::sphere(5), 0.4));
-  all.push_back(labelled("grid", shapes::grid_with_holes(40, 40, 8), 7));
-  all.push_back(labelled("cylinder", shapes::open_cylinder(24, 40), 5));
-  all.push_back(labelled("box", box_with_handle(), 6));
-  all.push_back(labelled("lamp", lamp(48), 2.2));
-  for (const auto& [sample, cells] : {std::pair("dumbbell", 6.0), std::pair("waterneck", 7.0),
-                                      std::pair("bracket", 6.0), std::pair("assembly", 6.0)}) {
-    const TriangleSoup soup = make_sample(sample, 8000).value();
-    double side = 0;
-    for (const Vec3& p : soup.positions) side = std::max({side, p.x, p.y, p.z});
-    all.push_back(labelled(sample, soup, side / cells));
-  }
+  for (const LabelledShape& shape : labelled_shapes())
+    all.push_back(labelled(shape.name, shape.soup, shape.cell));
   for (std::uint32_t seed = 0; seed < 30; ++seed) {
     RandomManifold mesh = random_manifold(seed);
     all.push_back(labelled("random " + std::to_string(seed), mesh.table, mesh.positions, 1.5));

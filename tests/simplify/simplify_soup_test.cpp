@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "server/simplify/simplify_soup.h"
 
-#include <random>
-
 #include <gtest/gtest.h>
 
+#include "tests/ingest/restored.h"
 #include "tests/simplify/simplify_support.h"
 #include "tests/support/shapes.h"
 
@@ -46,22 +45,6 @@ TEST(SimplifySoup, LeavesNonManifoldPlacesWhereTheyAre) {
   EXPECT_TRUE(border_edges(result.soup.triangles).empty());
 }
 
-/// Random triangles over few vertices: everything that can be wrong with connectivity is.
-TriangleSoup random_soup(std::uint32_t seed) {
-  std::mt19937 random(seed);
-  const std::uint32_t vertices = 3 + random() % 30, triangles = 1 + random() % 120;
-  TriangleSoup soup;
-  for (std::uint32_t v = 0; v < vertices; ++v) {
-    soup.positions.push_back({double(random() % 8), double(random() % 8), double(random() % 8)});
-  }
-  const auto any = [&] { return static_cast<VertexId>(random() % vertices); };
-  for (std::uint32_t t = 0; t < triangles; ++t) {
-    const VertexId a = any(), b = any();
-    soup.triangles.push_back({a, b, any()});
-  }
-  return soup;
-}
-
 TEST(SimplifySoup, TakesAnyTriangles) {
   for (std::uint32_t seed = 0; seed < 300; ++seed) {
     const TriangleSoup soup = random_soup(seed);
@@ -77,6 +60,12 @@ TEST(SimplifySoup, TakesAnyTriangles) {
       at += at < result->soup.positions.size() && result->soup.positions[at] == p;
     EXPECT_EQ(at, result->soup.positions.size()) << "seed " << seed;
   }
+}
+
+TEST(SimplifySoup, StopsWhenTold) {
+  const auto stopped = simplify_soup(shapes::sphere(5), {100}, {}, [](double) { return false; });
+  ASSERT_FALSE(stopped);
+  EXPECT_EQ(stopped.error().code, ErrorCode::Cancelled);
 }
 
 TEST(SimplifySoup, RefusesWhatRepairRefuses) { EXPECT_FALSE(simplify_soup({}, {10})); }

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/mesh/corner_table.h"
 #include "tests/support/shapes.h"
 
 namespace selvage {
@@ -36,8 +37,11 @@ double sampled_distance(const TriangleSoup& from, const TriangleSoup& to) {
 }
 
 double bound_of(const TriangleSoup& from, const TriangleSoup& to, double begin) {
-  const TriangleTree tree(to.triangles, to.positions);
-  CoverBound bound(tree, begin);
+  const auto vertices = static_cast<std::uint32_t>(to.positions.size());
+  const CornerTable table = build_corner_table(to.triangles, vertices);
+  const NearSurface surface(to.triangles, to.positions, table.opposite);
+  const CoverTarget target{&surface};
+  CoverBound bound({&target, 1}, begin);
   for (const auto& [a, b, c] : from.triangles)
     bound.add(from.positions[a], from.positions[b], from.positions[c]);
   return bound.bound();

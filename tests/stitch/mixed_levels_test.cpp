@@ -9,9 +9,9 @@
 #include <gtest/gtest.h>
 
 #include "client/stitch/stitcher.h"
-#include "common/samples/samples.h"
 #include "tests/simplify/simplify_support.h"
 #include "tests/support/labelled_pack.h"
+#include "tests/support/labelled_shapes.h"
 #include "tests/support/levelled_model.h"
 #include "tests/support/mesh_mirror.h"
 #include "tests/support/random_meshes.h"
@@ -31,20 +31,8 @@ LevelledModel model_of(std::string name, const TriangleSoup& soup, double cell) 
 /// Whose triangles are an oriented manifold by the file's own indices.
 std::vector<LevelledModel> manifold_models() {
   std::vector<LevelledModel> all;
-  all.push_back(model_of("torus", shapes::torus(30, 90), 1.1));
-  all.push_back(model_of("sphere", shapes::sphere(5), 0.4));
-  all.push_back(model_of("grid", shapes::grid_with_holes(40, 40, 8), 7));
-  all.push_back(model_of("cylinder", shapes::open_cylinder(24, 40), 5));
-  all.push_back(model_of("tori", shapes::chain_of_tori(3), 2));
-  all.push_back(model_of("box", box_with_handle(), 6));
-  all.push_back(model_of("lamp", lamp(48), 2.2));
-  for (const auto& [sample, cells] : {std::pair("dumbbell", 6.0), std::pair("waterneck", 7.0),
-                                      std::pair("bracket", 6.0), std::pair("assembly", 6.0)}) {
-    const TriangleSoup soup = make_sample(sample, 8000).value();
-    double side = 0;
-    for (const Vec3& p : soup.positions) side = std::max({side, p.x, p.y, p.z});
-    all.push_back(model_of(sample, soup, side / cells));
-  }
+  for (const LabelledShape& shape : labelled_shapes())
+    all.push_back(model_of(shape.name, shape.soup, shape.cell));
   return all;
 }
 

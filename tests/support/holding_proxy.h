@@ -52,7 +52,7 @@ class HoldingProxy {
     tcp::socket server(io_);
     auto [error] = co_await server.async_connect(server_, kAwait);
     if (error) co_return;
-    Signal released(co_await asio::this_coro::executor);
+    Signal released;
     auto there = pass_requests(client, server, released);
     auto back = pass_answers(server, client, released);
     co_await (std::move(there) || std::move(back));
