@@ -24,6 +24,7 @@
 namespace selvage {
 namespace {
 
+using testing::quoted;
 using testing::run_program;
 using testing::ServerProcess;
 using testing::TestAuthority;
@@ -72,7 +73,7 @@ TEST_F(Process, StopsInGoodOrder) {
 
 TEST_F(Process, DoesNotServeOtherMachinesInTheClear) {
   const auto said =
-      run_program(std::string(SELVAGE_SERVER) + " --store " + store().string() + " --listen 0.0.0.0:0");
+      run_program(quoted(SELVAGE_SERVER) + " --store " + store().string() + " --listen 0.0.0.0:0");
   EXPECT_EQ(said.code, 1);
   EXPECT_NE(said.text.find("--allow-plain"), std::string::npos) << said.text;
   ServerProcess allowed(SELVAGE_SERVER,
@@ -101,13 +102,13 @@ TEST_F(Process, BadConfigurationsNameTheirLine) {
   for (const std::string bad :
        {"store = \"x\"\nmax-conections = 5\n", "# fine\nstore = [\n", "\nstore = [1, 2]\n"}) {
     const std::string config = file("bad.toml", bad);
-    const auto said = run_program(std::string(SELVAGE_SERVER) + " --config " + config);
+    const auto said = run_program(quoted(SELVAGE_SERVER) + " --config " + config);
     EXPECT_NE(said.code, 0);
     EXPECT_TRUE(said.text.find("line 2") != std::string::npos ||
                 said.text.find("line 3") != std::string::npos)
         << said.text;
   }
-  const auto said = run_program(std::string(SELVAGE_SERVER) + " --store x --max-upload lots");
+  const auto said = run_program(quoted(SELVAGE_SERVER) + " --store x --max-upload lots");
   EXPECT_NE(said.text.find("max-upload"), std::string::npos) << said.text;
 }
 
@@ -117,7 +118,7 @@ TEST_F(Process, ToolsTalkToItOverTls) {
   std::ofstream(store() / "row.selvage", std::ios::binary).write("torn", 4);
   const auto server = start_on_store({"--cert", files.certificate.string(), "--key", files.key.string(),
                                       "--tokens", file("tokens", kViewer)});
-  const std::string client = SELVAGE_CLIENT;
+  const std::string client = quoted(SELVAGE_CLIENT);
   const std::string at = server->address().to_string();
   const std::string ca = " --ca " + authority.certificate().string();
   const std::string token = " --token-file " + file("token", "secret\n");
@@ -358,7 +359,7 @@ TEST_F(Process, AnInterruptedGetGoesOnFromItsCache) {
   ServerProcess server(SELVAGE_SERVER, {"--store", store().string(), "--listen", address},
                        folder.path() / "log");
   EXPECT_EQ(server.address().to_string(), address);
-  const auto again = run_program(std::string(SELVAGE_CLIENT) + " get " + address + "/ring -o " + output +
+  const auto again = run_program(quoted(SELVAGE_CLIENT) + " get " + address + "/ring -o " + output +
                                  " --json --cache " + cache);
   EXPECT_EQ(again.code, 0) << again.text;
   EXPECT_EQ(again.text.find("\"cached_parts\": 0,"), std::string::npos) << again.text;

@@ -91,6 +91,10 @@ struct ProgramOutput {
   std::string text;
   int code = 0;
 };
+
+/// A path as one word of a command line.
+inline std::string quoted(const std::string& path) { return "'" + path + "'"; }
+
 inline ProgramOutput run_program(const std::string& command_line) {
   ProgramOutput output;
   std::FILE* pipe = ::popen((command_line + " 2>&1").c_str(), "r");
