@@ -180,11 +180,12 @@ void bench_regions(const Model& model, const Grid& grid, const CodecTables& tabl
     }
     if (entry.bundle_triangles > 0) joins += (part++)->size();
   }
-  const double bits_each = 8.0 * static_cast<double>(joins) / encoded.directory.boundary_triangles;
+  const double boundary = encoded.directory.boundary_triangles;
+  const double bits_each = boundary > 0 ? 8.0 * static_cast<double>(joins) / boundary : 0;
   totals.add("regions " + tag, static_cast<double>(ours));
   totals.add("cl10 regions " + tag, static_cast<double>(draco));
   totals.add("joins " + tag, 8.0 * static_cast<double>(joins));
-  totals.add("boundary " + tag, encoded.directory.boundary_triangles);
+  totals.add("boundary " + tag, boundary);
   std::size_t parts = 0;
   for (const Bytes& bytes : encoded.parts) parts += bytes.size();
   const std::size_t pack = assemble_pack(encoded.directory, encoded.parts).size();

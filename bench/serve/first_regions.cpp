@@ -34,7 +34,7 @@ double squared_distance(const RegionEntry& a, const RegionEntry& b) {
 
 double fetch_seconds(const std::string& source, const std::vector<RegionId>& regions) {
   const auto start = Clock::now();
-  auto model = Model::open(source);
+  auto model = Model::at(source);  // knows what it wants: hello, open and get in one flight
   if (!model) throw std::runtime_error(model.error().message);
   Selection selection;
   selection.kind = Selection::Kind::Ids;
