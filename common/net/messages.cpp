@@ -1,91 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "common/net/messages.h"
 
+#include "common/net/message_fields.h"
+#include "common/net/publish_messages.h"
 #include "common/net/text.h"
 
 #include "messages.pb.h"
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <utility>
 
 namespace selvage {
 namespace {
 
-// ---- single fields
-// -------------------------------------------------------------------------------------------
-
-/// Collects what is wrong with a message; the first complaint wins.
-class Check {
- public:
-  explicit Check(FrameType type) : type_(type) {}
-
-  void that(bool claim, std::string_view field) {
-    if (!claim && !failed_) failed_ = std::string(field);
-  }
-
-  template <class Message>
-  Result<Message> result(Message message) const {
-    if (!failed_) return message;
-    return fail(ErrorCode::Protocol, "bad " + *failed_ + " in " + std::string(to_string(type_)));
-  }
-
- private:
-  FrameType type_;
-  std::optional<std::string> failed_;
-};
-
-/// Names are compared, printed and looked up: printable UTF-8. What else a name may be, the store decides.
-std::string name_from(const std::string& text, std::string_view field, Check& check) {
-  check.that(!text.empty() && text.size() <= kMaxNameLength && is_printable_utf8(text), field);
-  return text;
-}
-
-/// Free text for people is cleaned rather than refused, on its way out and in.
-std::string clean(std::string_view text) { return printable_utf8(text, kMaxTextLength); }
-
-Hash hash_from(std::string_view bytes, std::string_view field, Check& check) {
-  Hash hash;
-  check.that(bytes.size() == Hash::kSize, field);
-  if (bytes.size() == Hash::kSize) std::copy_n(bytes.begin(), Hash::kSize, hash.bytes.begin());
-  return hash;
-}
-
-std::string bytes_of(const Hash& hash) { return {hash.bytes.begin(), hash.bytes.end()}; }
-
-std::vector<Hash> hashes_from(std::string_view bytes, std::string_view field, Check& check) {
-  check.that(bytes.size() % Hash::kSize == 0, field);
-  std::vector<Hash> hashes;
-  hashes.reserve(bytes.size() / Hash::kSize);
-  for (; bytes.size() >= Hash::kSize; bytes.remove_prefix(Hash::kSize)) {
-    hashes.push_back(hash_from(bytes.substr(0, Hash::kSize), field, check));
-  }
-  return hashes;
-}
-
-std::uint8_t u8_from(std::uint32_t value, std::uint32_t last, std::string_view field, Check& check) {
-  check.that(value <= last, field);
-  return static_cast<std::uint8_t>(value);
-}
-
-Box box_from(const wire::Box& in, Check& check) {
-  const Box box{{in.min_x(), in.min_y(), in.min_z()}, {in.max_x(), in.max_y(), in.max_z()}};
-  for (double value : {box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z}) {
-    check.that(std::isfinite(value), "box");
-  }
-  check.that(box.min.x <= box.max.x && box.min.y <= box.max.y && box.min.z <= box.max.z, "box");
-  return box;
-}
-
-void put(const Box& box, wire::Box& out) {
-  out.set_min_x(box.min.x);
-  out.set_min_y(box.min.y);
-  out.set_min_z(box.min.z);
-  out.set_max_x(box.max.x);
-  out.set_max_y(box.max.y);
-  out.set_max_z(box.max.z);
-}
+using namespace message_fields;
 
 bool is_known(std::uint32_t code) {
   return code >= static_cast<std::uint32_t>(ErrorCode::InvalidArgument) &&
@@ -93,7 +22,6 @@ bool is_known(std::uint32_t code) {
 }
 
 // ---- struct -> protobuf
-// --------------------------------------------------------------------------------------
 
 wire::Hello to_wire(const Hello& message) {
   wire::Hello out;
@@ -164,7 +92,7 @@ void put(const Selection& selection, wire::GetParts& out) {
       out.mutable_ids()->mutable_ids()->Add(selection.ids.begin(), selection.ids.end());
       break;
     case Selection::Kind::Box:
-      put(selection.box, *out.mutable_box());
+      message_fields::put(selection.box, *out.mutable_box());
       break;
   }
   out.set_level(selection.level);
@@ -236,105 +164,7 @@ wire::GoAway to_wire(const GoAway& message) {
   return out;
 }
 
-wire::PublishCut to_wire(const PublishCut& cut) {
-  wire::PublishCut out;
-  out.set_by(static_cast<std::uint32_t>(cut.by));
-  out.set_mode(static_cast<std::uint32_t>(cut.mode));
-  out.set_regions(cut.regions);
-  out.set_min_region(cut.min_region);
-  out.set_max_region(cut.max_region);
-  out.set_smooth(cut.smooth);
-  out.set_levels(cut.levels);
-  for (const double ratio : cut.level_ratios) out.add_level_ratios(ratio);
-  for (const double error : cut.level_errors) out.add_level_errors(error);
-  return out;
-}
-
-wire::Publish to_wire(const Publish& message) {
-  wire::Publish out;
-  out.set_name(message.name);
-  out.set_file(message.file);
-  out.set_size_bytes(message.size_bytes);
-  out.set_hash(bytes_of(message.hash));
-  out.set_replace(message.replace);
-  out.set_lossless(message.lossless);
-  out.set_bits(message.bits);
-  out.set_units(clean(message.units));
-  *out.mutable_cut() = to_wire(message.cut);
-  return out;
-}
-
-wire::PublishReady to_wire(const PublishReady& message) {
-  wire::PublishReady out;
-  out.set_offset(message.offset);
-  return out;
-}
-
-wire::PublishProgress to_wire(const PublishProgress& message) {
-  wire::PublishProgress out;
-  out.set_stage(message.stage);
-  out.set_permille(message.permille);
-  out.set_ahead(message.ahead);
-  return out;
-}
-
-template <class T>
-std::span<const T> first_of(const std::vector<T>& all) {
-  return std::span(all).first(std::min(all.size(), kMaxRepeated));
-}
-
-wire::Published to_wire(const Published& message) {
-  wire::Published out;
-  out.set_name(message.name);
-  out.set_pack_id(bytes_of(message.pack_id));
-  out.set_size_bytes(message.size_bytes);
-  out.set_regions(message.regions);
-  out.set_vertices(message.vertices);
-  out.set_triangles(message.triangles);
-  for (const std::string& note : first_of(message.notes)) out.add_notes(clean(note));
-  return out;
-}
-
-wire::Unpublish to_wire(const Unpublish& message) {
-  wire::Unpublish out;
-  out.set_name(message.name);
-  return out;
-}
-
-wire::StatusReport to_wire(const StatusReport& message) {
-  wire::StatusReport out;
-  out.set_software(clean(message.software));
-  out.set_uptime_seconds(message.uptime_seconds);
-  out.set_draining(message.draining);
-  out.set_encrypted(message.is_encrypted);
-  out.set_models(message.models);
-  out.set_model_bytes(message.model_bytes);
-  for (const ModelProblem& problem : first_of(message.problems)) {
-    wire::ModelProblem& put_problem = *out.add_problems();
-    put_problem.set_name(problem.name);
-    put_problem.set_problem(clean(problem.problem));
-  }
-  out.set_connections(message.connections);
-  out.set_max_connections(message.max_connections);
-  out.set_connections_accepted(message.connections_accepted);
-  out.set_connections_refused(message.connections_refused);
-  out.set_requests(message.requests);
-  out.set_errors(message.errors);
-  out.set_bytes_sent(message.bytes_sent);
-  out.set_bytes_uploaded(message.bytes_uploaded);
-  out.set_published(message.published);
-  out.set_publish_failed(message.publish_failed);
-  for (const PublishJob& job : first_of(message.jobs)) {
-    wire::PublishJob& put_job = *out.add_jobs();
-    put_job.set_name(job.name);
-    put_job.set_stage(job.stage);
-    put_job.set_permille(job.permille);
-  }
-  return out;
-}
-
 // ---- protobuf -> struct
-// --------------------------------------------------------------------------------------
 
 Result<Hello> from_wire(const wire::Hello& in) {
   Check check(FrameType::Hello);
@@ -479,117 +309,6 @@ Result<ErrorMessage> from_wire(const wire::Error& in) {
 }
 
 Result<GoAway> from_wire(const wire::GoAway& in) { return GoAway{clean(in.reason())}; }
-
-bool is_file_name(const std::string& text) {
-  return text != "." && text != ".." && text.find_first_of(std::string_view("/\\\0", 3)) == std::string::npos;
-}
-
-PublishCut cut_from(const wire::PublishCut& in, Check& check) {
-  PublishCut out;
-  check.that(in.by() <= PublishCut::kLastBy, "by");
-  check.that(in.mode() <= PublishCut::kLastMode, "mode");
-  out.by = static_cast<PublishCut::By>(in.by());
-  out.mode = static_cast<PublishCut::Mode>(in.mode());
-  out.regions = in.regions();
-  out.min_region = in.min_region();
-  out.max_region = in.max_region();
-  out.smooth = in.smooth();
-  out.levels = in.levels();
-  check.that(out.levels > 0 && out.levels <= kMaxLevels, "levels");
-  const auto list_from = [&](const auto& values, std::string_view field) {
-    check.that(static_cast<std::uint32_t>(values.size()) < kMaxLevels, field);
-    for (const double value : values) check.that(std::isfinite(value) && value >= 0, field);
-    return std::vector<double>(values.begin(), values.end());
-  };
-  out.level_ratios = list_from(in.level_ratios(), "level_ratios");
-  out.level_errors = list_from(in.level_errors(), "level_errors");
-  check.that(out.level_ratios.empty() || out.level_errors.empty(), "levels");
-  return out;
-}
-
-Result<Publish> from_wire(const wire::Publish& in) {
-  Check check(FrameType::Publish);
-  Publish out;
-  out.name = name_from(in.name(), "name", check);
-  out.file = name_from(in.file(), "file", check);
-  check.that(is_file_name(out.file), "file");
-  out.size_bytes = in.size_bytes();
-  check.that(out.size_bytes > 0, "size_bytes");
-  out.hash = hash_from(in.hash(), "hash", check);
-  out.replace = in.replace();
-  out.lossless = in.lossless();
-  out.bits = u8_from(in.bits(), 255, "bits", check);
-  out.units = in.units();
-  check.that(out.units.size() <= kMaxNameLength && is_printable_utf8(out.units), "units");
-  if (in.has_cut()) out.cut = cut_from(in.cut(), check);
-  return check.result(std::move(out));
-}
-
-Result<PublishReady> from_wire(const wire::PublishReady& in) { return PublishReady{in.offset()}; }
-
-std::string stage_from(const std::string& text) { return printable_utf8(text, kMaxStageLength); }
-
-std::uint32_t permille_from(std::uint32_t value, Check& check) {
-  check.that(value <= 1000, "permille");
-  return value;
-}
-
-Result<PublishProgress> from_wire(const wire::PublishProgress& in) {
-  Check check(FrameType::PublishProgress);
-  PublishProgress out{stage_from(in.stage()), permille_from(in.permille(), check), in.ahead()};
-  return check.result(std::move(out));
-}
-
-Result<Published> from_wire(const wire::Published& in) {
-  Check check(FrameType::Published);
-  Published out;
-  out.name = name_from(in.name(), "name", check);
-  out.pack_id = hash_from(in.pack_id(), "pack_id", check);
-  out.size_bytes = in.size_bytes();
-  out.regions = in.regions();
-  out.vertices = in.vertices();
-  out.triangles = in.triangles();
-  check.that(static_cast<std::size_t>(in.notes_size()) <= kMaxRepeated, "notes");
-  for (const std::string& note : in.notes()) out.notes.push_back(clean(note));
-  return check.result(std::move(out));
-}
-
-Result<Unpublish> from_wire(const wire::Unpublish& in) {
-  Check check(FrameType::Unpublish);
-  Unpublish out{name_from(in.name(), "name", check)};
-  return check.result(std::move(out));
-}
-
-Result<StatusReport> from_wire(const wire::StatusReport& in) {
-  Check check(FrameType::StatusReport);
-  StatusReport out;
-  out.software = clean(in.software());
-  out.uptime_seconds = in.uptime_seconds();
-  out.draining = in.draining();
-  out.is_encrypted = in.encrypted();
-  out.models = in.models();
-  out.model_bytes = in.model_bytes();
-  check.that(static_cast<std::size_t>(in.problems_size()) <= kMaxRepeated, "problems");
-  for (const wire::ModelProblem& problem : in.problems()) {
-    out.problems.push_back({name_from(problem.name(), "problems", check), clean(problem.problem())});
-  }
-  out.connections = in.connections();
-  out.max_connections = in.max_connections();
-  out.connections_accepted = in.connections_accepted();
-  out.connections_refused = in.connections_refused();
-  out.requests = in.requests();
-  out.errors = in.errors();
-  out.bytes_sent = in.bytes_sent();
-  out.bytes_uploaded = in.bytes_uploaded();
-  out.published = in.published();
-  out.publish_failed = in.publish_failed();
-  check.that(static_cast<std::size_t>(in.jobs_size()) <= kMaxRepeated, "jobs");
-  for (const wire::PublishJob& job : in.jobs()) {
-    out.jobs.push_back({name_from(job.name(), "jobs", check), stage_from(job.stage()),
-                        permille_from(job.permille(), check)});
-  }
-  return check.result(std::move(out));
-}
 
 template <class Message>
 constexpr bool kIsEmpty = std::is_empty_v<Message>;

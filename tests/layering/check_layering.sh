@@ -58,7 +58,7 @@ only_in 'common/net/|(server|client)/(session|app)/|client/load/|server/operate/
 only_in 'common/net/|server/operate/' 'boost/(beast|system)' 'Asio stays in net, session and app'
 only_in 'server/operate/' 'prometheus/' 'metrics have one door'
 only_in 'server/app/' 'toml\+\+/' 'configuration is an app matter'
-only_in 'common/net/messages\.cpp' 'google/protobuf|[^">]*\.pb\.h' 'protobuf stays behind common/net/messages.h'
+only_in 'common/net/(messages|publish_messages|message_fields)\.cpp' 'google/protobuf|[^">]*\.pb\.h' 'protobuf stays behind common/net/messages.h'
 only_in 'common/base/log\.cpp' 'spdlog/' 'spdlog stays behind common/base/log.h'
 only_in 'common/base/(parallel|task_group)\.cpp' '(tbb|oneapi)/' 'threads come from common/base/parallel.h and task_group.h'
 only_in 'common/(base|net)/' 'openssl/' 'OpenSSL serves hashing and TLS only'

@@ -57,6 +57,7 @@ allows server/encode/b.cpp '<algorithm>'
 allows client/stitch/a.cpp '<mutex>'
 allows common/mesh_io/a.cpp '<OpenMesh/Core/IO/MeshIO.hh>'
 allows common/net/messages.cpp '"messages.pb.h"'
+allows common/net/publish_messages.cpp '"messages.pb.h"'
 allows common/base/log.cpp '<spdlog/spdlog.h>'
 
 rm -r -- "${tree:?}/common" "${tree:?}/server" "${tree:?}/client"
