@@ -600,18 +600,25 @@ Work use_first_flight(std::unique_ptr<ByteStream> stream, bool& succeeded) {
   (*session)->close();
 }
 
-class NthOperation : public ::testing::TestWithParam<bool> {};
+class NthOperation : public ::testing::TestWithParam<bool> {
+ protected:
+  /// A stream that is small, and whose nth operation fails at the end that is tested.
+  static MemoryStreamOptions failing_at(std::size_t n) {
+    MemoryStreamOptions options;
+    options.capacity = 20'000;
+    options.read_limit = 10'000;
+    (GetParam() ? options.first_fault : options.second_fault)->fails_at = n;
+    return options;
+  }
+};
 
 TEST_P(NthOperation, FailingEndsBothSidesInGoodOrder) {
   bool succeeded = false;
   std::size_t n = 0;
   for (; !succeeded; ++n) {
     ASSERT_LT(n, 1000u);
-    MemoryStreamOptions options;
-    options.capacity = 20'000;
-    options.read_limit = 10'000;
+    const MemoryStreamOptions options = failing_at(n);
     const auto fault = GetParam() ? options.first_fault : options.second_fault;
-    fault->fails_at = n;
     SessionHarness harness({}, options);
     harness.folder().put("row.selvage", fake_pack_bytes(10, 8'000));
     harness.run(use_everything(harness.connect(), succeeded));
@@ -628,11 +635,7 @@ TEST_P(NthOperation, FailingEndsAFirstFlightInGoodOrder) {
   std::size_t n = 0;
   for (; !succeeded; ++n) {
     ASSERT_LT(n, 1000u);
-    MemoryStreamOptions options;
-    options.capacity = 20'000;
-    options.read_limit = 10'000;
-    (GetParam() ? options.first_fault : options.second_fault)->fails_at = n;
-    SessionHarness harness({}, options);
+    SessionHarness harness({}, failing_at(n));
     harness.folder().put("row.selvage", fake_pack_bytes(10, 8'000));
     harness.run(use_first_flight(harness.connect(), succeeded));
   }
