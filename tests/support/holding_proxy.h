@@ -3,55 +3,31 @@
 
 #include <array>
 #include <atomic>
-#include <thread>
 #include <vector>
 
-#include <boost/asio/co_spawn.hpp>
-#include <boost/asio/detached.hpp>
 #include <boost/asio/experimental/awaitable_operators.hpp>
-#include <boost/asio/io_context.hpp>
-#include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/write.hpp>
 
-#include "common/net/await.h"
 #include "common/net/frame.h"
 #include "common/net/signal.h"
-#include "common/net/tcp_stream.h"
+#include "tests/support/loopback_proxy.h"
 
 namespace selvage {
 
 /// Stands between a client and a server on loopback, and holds back whatever the server says until the client
 /// has sent a frame of some type. A client that waits for an answer before that waits in vain: so it counts
 /// flights, not time.
-class HoldingProxy {
+class HoldingProxy : public LoopbackProxy {
  public:
-  HoldingProxy(const HostPort& server, FrameType until)
-      : server_(asio::ip::make_address(server.host), server.port), until_(until) {
-    asio::co_spawn(io_, accept(), asio::detached);
-    thread_ = std::jthread([this] { io_.run(); });
-  }
-  ~HoldingProxy() { io_.stop(); }
+  HoldingProxy(const HostPort& server, FrameType until) : LoopbackProxy(server), until_(until) { start(); }
+  ~HoldingProxy() override { stop(); }
 
-  HostPort address() const { return {"127.0.0.1", acceptor_.local_endpoint().port()}; }
   /// Of frames of that type, over all connections.
   int sent(FrameType type) const { return sent_[static_cast<std::size_t>(type)]; }
 
  private:
-  using tcp = asio::ip::tcp;
-
-  asio::awaitable<void> accept() {
-    for (;;) {
-      auto [error, client] = co_await acceptor_.async_accept(kAwait);
-      if (error) co_return;
-      asio::co_spawn(io_, serve(std::move(client)), asio::detached);
-    }
-  }
-
-  asio::awaitable<void> serve(tcp::socket client) {
+  asio::awaitable<void> pass(tcp::socket& client, tcp::socket& server) override {
     using namespace asio::experimental::awaitable_operators;
-    tcp::socket server(io_);
-    auto [error] = co_await server.async_connect(server_, kAwait);
-    if (error) co_return;
     Signal released;
     auto there = pass_requests(client, server, released);
     auto back = pass_answers(server, client, released);
@@ -88,12 +64,8 @@ class HoldingProxy {
     }
   }
 
-  asio::io_context io_;
-  tcp::acceptor acceptor_{io_, tcp::endpoint(asio::ip::make_address("127.0.0.1"), 0)};
-  tcp::endpoint server_;
   const FrameType until_;
   std::array<std::atomic<int>, 256> sent_{};
-  std::jthread thread_;
 };
 
 }  // namespace selvage
