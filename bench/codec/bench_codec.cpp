@@ -168,7 +168,7 @@ void bench_regions(const Model& model, const Grid& grid, const CodecTables& tabl
   if (mesh.table.vertex_count() < 2 * size) return;
   const Partition partition = voronoi_partition(mesh, size);
   const ModelSource source{mesh.table, mesh.positions, mesh.source_of_vertex, mesh.is_turned, partition};
-  const EncodedModel encoded = encode_model(source, grid, serial_for(), [] {}, {tables});
+  const EncodedModel encoded = encode_model(source, grid, serial_for(), [] {}, {tables}).value();
   std::size_t ours = 0, joins = 0, draco = 0;
   auto part = encoded.parts.begin();
   for (const RegionEntry& entry : encoded.directory.regions) {
@@ -210,7 +210,8 @@ void bench_default(const Model& model, const Grid& grid, const CodecTables& tabl
                             costs.add(id, tokens, plain_bits, tables);
                           }};
   EncodedModel encoded = encode_model(
-      source, grid, serial_for(), [] {}, hooks);
+                             source, grid, serial_for(), [] {}, hooks)
+                             .value();
   encoded.directory.vertices = mesh.table.vertex_count();
   encoded.directory.triangles = mesh.table.triangle_count();
   std::size_t parts = 0, joins = 0;

@@ -76,7 +76,7 @@ LosslessSizes lossless_sizes(const Model& model, const CodecTables& tables) {
       make_partition(mesh.table, segmentation.region_of_vertex, segmentation.region_count);
   const Grid grid = make_grid(positions, 14);
   const ModelSource source{mesh.table, positions, mesh.source_of_vertex, mesh.is_turned, partition, true};
-  const EncodedModel encoded = encode_model(source, grid, serial_for(), [] {}, {tables});
+  const EncodedModel encoded = encode_model(source, grid, serial_for(), [] {}, {tables}).value();
   require_round_trip(model, encoded, tables);
   LosslessSizes sizes;
   auto part = encoded.parts.begin();

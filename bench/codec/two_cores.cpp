@@ -65,7 +65,7 @@ double median(std::vector<double> values) {
 DecodingTimes decode_on_two_cores(const RepairedMesh& mesh, const Partition& partition, const Grid& grid,
                                   int repeats) {
   const ModelSource source{mesh.table, mesh.positions, mesh.source_of_vertex, mesh.is_turned, partition};
-  const EncodedModel model = encode_model(source, grid, serial_for(), [] {});
+  const EncodedModel model = encode_model(source, grid, serial_for(), [] {}).value();
   const auto pack = Pack::from_bytes(assemble_pack(model.directory, model.parts));
   if (!pack) give_up(pack.error());
   const Directory& directory = (*pack)->directory();

@@ -57,7 +57,8 @@ TrainingSet make_training_set(const std::vector<const Model*>& models) {
                                 }
                               }};
       const EncodedModel encoded = encode_model(
-          source, grid, serial_for(), [] {}, hooks);
+                                       source, grid, serial_for(), [] {}, hooks)
+                                       .value();
       auto part = encoded.parts.begin();
       for (RegionId id = 0; id <= partition.region_count; ++id) {
         const RegionEntry& entry = encoded.directory.regions[id];

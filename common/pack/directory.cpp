@@ -7,12 +7,11 @@
 #include <numeric>
 
 #include "common/coding/byte_io.h"
+#include "common/pack/directory_limits.h"
 #include "common/pack/pack.h"
 
 namespace selvage {
 namespace {
-
-constexpr std::size_t kMaxTextLength = 4096;
 
 std::uint32_t page_count(std::uint32_t regions) { return (regions + kRegionsPerPage - 1) / kRegionsPerPage; }
 
@@ -216,7 +215,7 @@ void write_names(ByteWriter& out, const std::vector<NamedRegions>& names) {
 
 NamedRegions read_name(ByteReader& in, std::uint32_t region_count) {
   NamedRegions named;
-  named.name = in.string(kMaxTextLength);
+  named.name = in.string(kMaxDirectoryText);
   named.ranges.resize(in.count(2));
   if (named.ranges.empty()) in.set_failed();
   std::uint64_t next = 1;
@@ -294,12 +293,12 @@ std::uint32_t regions_in(const Directory& directory, std::uint32_t page) {
 
 /// Fills in all but the regions; gives their number.
 std::uint32_t read_summary(ByteReader& in, Directory& directory) {
-  directory.name = in.string(kMaxTextLength);
-  directory.units = in.string(kMaxTextLength);
+  directory.name = in.string(kMaxDirectoryText);
+  directory.units = in.string(kMaxDirectoryText);
   const std::uint32_t metadata = in.count(2);
   for (std::uint32_t i = 0; i < metadata && in.ok(); ++i) {
-    std::string key = in.string(kMaxTextLength);
-    directory.metadata[std::move(key)] = in.string(kMaxTextLength);
+    std::string key = in.string(kMaxDirectoryText);
+    directory.metadata[std::move(key)] = in.string(kMaxDirectoryText);
   }
   directory.grid = read_grid(in, directory.is_exact);
   visit_source_counts(directory.source, [&](std::uint32_t& count) { count = in.varint32(); });

@@ -11,6 +11,7 @@
 #include "common/mesh/boundary_loops.h"
 #include "server/encode/bundle_encoder.h"
 #include "server/encode/level_encoder.h"
+#include "server/encode/part_limits.h"
 #include "server/encode/region_encoder.h"
 
 namespace selvage {
@@ -279,9 +280,12 @@ std::vector<std::uint32_t> find_weld_groups(const CornerTable& table,
   return group_of_vertex;
 }
 
-EncodedModel encode_model(const ModelSource& source, const Grid& grid, const ParallelFor& parallel,
-                          const std::function<void()>& on_part_done, const EncodeHooks& hooks) {
-  return ModelEncoder(source, grid, hooks).run(parallel, on_part_done);
+Result<EncodedModel> encode_model(const ModelSource& source, const Grid& grid, const ParallelFor& parallel,
+                                  const std::function<void()>& on_part_done, const EncodeHooks& hooks) {
+  if (auto ok = check_region_sizes(source.table, source.partition); !ok) return forward_error(ok);
+  EncodedModel model = ModelEncoder(source, grid, hooks).run(parallel, on_part_done);
+  if (auto ok = check_parts(model.directory.regions, model.parts); !ok) return forward_error(ok);
+  return model;
 }
 
 }  // namespace selvage

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/base/parallel.h"
+#include "common/base/result.h"
 #include "common/codec/codec_tables.h"
 #include "common/coding/byte_io.h"
 #include "common/coding/symbol_models.h"
@@ -51,8 +52,8 @@ struct EncodeHooks {
 
 /// A level of a region that takes no less bytes than the one before is left out as its repeat.
 /// `on_part_done` is called after each part, or what might have been one, possibly from several threads at
-/// once. The result does not depend on `parallel`.
-EncodedModel encode_model(const ModelSource& source, const Grid& grid, const ParallelFor& parallel,
-                          const std::function<void()>& on_part_done, const EncodeHooks& hooks = {});
+/// once. The result does not depend on `parallel`. LimitExceeded if it would hold what decoders refuse.
+Result<EncodedModel> encode_model(const ModelSource& source, const Grid& grid, const ParallelFor& parallel,
+                                  const std::function<void()>& on_part_done, const EncodeHooks& hooks = {});
 
 }  // namespace selvage

@@ -8,6 +8,7 @@
 #include <mutex>
 
 #include "common/mesh/grid.h"
+#include "common/pack/directory_limits.h"
 #include "common/pack/pack.h"
 #include "server/encode/model_encoder.h"
 #include "server/ingest/segment_model.h"
@@ -117,6 +118,34 @@ LevelledMesh make_levels(const RepairedMesh& mesh, const Partition& partition, c
                            targets, parallel, progress);
 }
 
+/// What readers of the directory refuse.
+Result<void> check_text(const std::string& what, const std::string& text) {
+  if (text.size() <= kMaxDirectoryText) return {};
+  return fail(ErrorCode::InvalidArgument, what + " \"" + text.substr(0, 40) + "...\" has " +
+                                              std::to_string(text.size()) + " bytes, more than " +
+                                              std::to_string(kMaxDirectoryText));
+}
+
+Result<void> check_texts(const IngestOptions& options) {
+  if (auto ok = check_text("the name", options.name); !ok) return ok;
+  if (auto ok = check_text("the units", options.units); !ok) return ok;
+  for (const auto& [key, value] : options.metadata) {
+    if (auto ok = check_text("the metadata key", key); !ok) return ok;
+    if (auto ok = check_text("the metadata value", value); !ok) return ok;
+  }
+  return {};
+}
+
+Result<void> check_regions(const NamedSegmentation& named) {
+  for (const auto& [name, regions] : named.regions_of_name) {
+    if (auto ok = check_text("the part's name", name); !ok) return ok;
+  }
+  if (named.regions.region_count < kMaxRegions) return {};
+  return fail(ErrorCode::LimitExceeded,
+              std::to_string(named.regions.region_count) + " regions are more than clients take, " +
+                  std::to_string(kMaxRegions - 1) + "; ask for fewer or larger ones");
+}
+
 bool are_floats(const std::vector<Vec3>& positions) {
   return std::all_of(positions.begin(), positions.end(), [](const Vec3& p) {
     constexpr double kMost = std::numeric_limits<float>::max();
@@ -145,6 +174,7 @@ Result<IngestedModel> ingest(const TriangleSoup& soup, const IngestOptions& opti
                                                 std::to_string(options.bits));
   }
   if (auto ok = check_goals(options.levels); !ok) return forward_error(ok);
+  if (auto ok = check_texts(options); !ok) return forward_error(ok);
   IngestedModel model;
   StageClock clock(progress, model.times);
   const auto cancelled = [] { return fail(ErrorCode::Cancelled, "cancelled"); };
@@ -167,6 +197,7 @@ Result<IngestedModel> ingest(const TriangleSoup& soup, const IngestOptions& opti
       clock.run("segment", [&] { return segment_model(mesh, options.parts, sized, parallel); });
   const Segmentation& segmentation = named.regions;
   if (clock.is_cancelled()) return cancelled();
+  if (auto ok = check_regions(named); !ok) return forward_error(ok);
   const Partition partition = clock.run("partition", [&] {
     return make_partition(mesh.table, segmentation.region_of_vertex, segmentation.region_count);
   });
@@ -180,7 +211,7 @@ Result<IngestedModel> ingest(const TriangleSoup& soup, const IngestOptions& opti
   if (clock.is_cancelled()) return cancelled();
   const double parts = (2.0 + static_cast<double>(options.levels.size())) * (partition.region_count + 1);
   std::atomic<std::uint32_t> done = 0;
-  EncodedModel encoded = clock.run("encode", [&] {
+  auto encoded = clock.run("encode", [&] {
     const ModelSource source{mesh.table,
                              mesh.positions,
                              mesh.source_of_vertex,
@@ -191,8 +222,9 @@ Result<IngestedModel> ingest(const TriangleSoup& soup, const IngestOptions& opti
     return encode_model(source, grid, parallel, [&] { clock.report("encode", ++done / parts); });
   });
   if (clock.is_cancelled()) return cancelled();
+  if (!encoded) return forward_error(encoded);
 
-  Directory& directory = encoded.directory;
+  Directory& directory = encoded->directory;
   directory.name = options.name;
   directory.units = options.units;
   directory.metadata = options.metadata;
@@ -202,7 +234,7 @@ Result<IngestedModel> ingest(const TriangleSoup& soup, const IngestOptions& opti
   directory.source.cut_vertices = static_cast<std::uint32_t>(mesh.positions.size()) - directory.vertices;
   directory.names = to_ranges(named.regions_of_name);
   model.names = static_cast<std::uint32_t>(directory.names.size());
-  model.pack = clock.run("assemble", [&] { return assemble_pack(std::move(directory), encoded.parts); });
+  model.pack = clock.run("assemble", [&] { return assemble_pack(std::move(directory), encoded->parts); });
   model.regions = partition.region_count;
   model.loose_vertices = static_cast<std::uint32_t>(
       std::count(partition.region_of_vertex.begin(), partition.region_of_vertex.end(), kLooseRegion));

@@ -60,8 +60,8 @@ struct IngestedModel {
 using Progress = std::function<bool(const std::string& stage, double done)>;
 
 /// Deterministic: the same soup and options give the same bytes, whatever `parallel` is. Fails with BadFile
-/// if no triangle is left after repair, InvalidArgument for options out of range, Cancelled if `progress`
-/// says so.
+/// if no triangle is left after repair, InvalidArgument for options out of range, LimitExceeded if the pack
+/// would hold what readers refuse (docs/FORMAT.md, "Limits"), Cancelled if `progress` says so.
 Result<IngestedModel> ingest(const TriangleSoup& soup, const IngestOptions& options,
                              const ParallelFor& parallel, const Progress& progress);
 

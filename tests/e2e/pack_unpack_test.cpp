@@ -151,6 +151,20 @@ TEST(PackUnpack, RefusesToKeepWhatNoFloatHolds) {
   EXPECT_EQ(model.error().code, ErrorCode::InvalidArgument);
 }
 
+TEST(PackUnpack, RefusesTextsThatNoReaderTakes) {
+  const std::string longest(4096, 'n'), longer(4097, 'n');
+  const TriangleSoup soup = shapes::torus(10, 10);
+  EXPECT_TRUE(unpack(*pack_of(soup, {.name = longest, .metadata = {{longest, longest}}})));
+  for (const IngestOptions& options :
+       {IngestOptions{.name = longer}, IngestOptions{.units = longer},
+        IngestOptions{.metadata = {{longer, "value"}}}, IngestOptions{.metadata = {{"key", longer}}}}) {
+    const auto model = ingest(soup, options, serial_for(), keep_going);
+    ASSERT_FALSE(model);
+    EXPECT_EQ(model.error().code, ErrorCode::InvalidArgument);
+    EXPECT_NE(model.error().message.find("4097 bytes"), std::string::npos);
+  }
+}
+
 TEST(PackUnpack, StopsWhenToldTo) {
   const auto model = ingest(shapes::torus(20, 20), {}, serial_for(),
                             [](const std::string& stage, double) { return stage != "segment"; });

@@ -51,7 +51,7 @@ Bytes labelled_pack(const TriangleSoup& soup, std::span<const std::uint32_t> lab
                            partition,
                            is_exact,
                            level_ratios.empty() ? nullptr : &levels};
-  EncodedModel model = encode_model(source, grid, serial_for(), [] {});
+  EncodedModel model = encode_model(source, grid, serial_for(), [] {}).value();
   model.directory.name = "labelled";
   model.directory.vertices =
       static_cast<std::uint32_t>(soup.positions.size()) - mesh.report.unreferenced_vertices;

@@ -146,7 +146,7 @@ Bytes levelled_pack(const LevelledModel& model, int bits) {
   const RepairedMesh& mesh = model.mesh;
   ModelSource source{mesh.table, mesh.positions, mesh.source_of_vertex, mesh.is_turned, model.partition};
   source.levels = &model.levels;
-  EncodedModel encoded = encode_model(source, make_grid(mesh.positions, bits), serial_for(), [] {});
+  EncodedModel encoded = encode_model(source, make_grid(mesh.positions, bits), serial_for(), [] {}).value();
   encoded.directory.name = model.name;
   encoded.directory.vertices =
       static_cast<std::uint32_t>(std::set(mesh.source_of_vertex.begin(), mesh.source_of_vertex.end()).size());
