@@ -36,7 +36,10 @@ constexpr const char* kFooter =
     "  expect errors = 0\n"
     "Example:\n"
     "  selvage-load localhost:7878 --script visit.load --chart visit.html\n"
-    "Exit codes: 0 as expected (without expectations: no errors), 1 not so, 2 nothing could be run.";
+    "Exit codes: 0 as expected (without expectations: no errors), 1 not so, 2 nothing could be run, 130 "
+    "interrupted; what was measured until then is reported.";
+
+enum ExitCode { kAsExpected = 0, kNotAsExpected = 1, kNothingRun = 2, kInterrupted = 130 };
 
 /// Thousands of clients need a descriptor each.
 void allow_many_files() {
@@ -70,9 +73,9 @@ struct Outputs {
   std::string csv, chart;
 };
 
-Result<bool> run(const std::string& server, const std::string& script_path, LoadOptions options,
-                 std::optional<std::uint32_t> clients, const std::vector<std::string>& expected,
-                 const Outputs& outputs) {
+Result<ExitCode> run(const std::string& server, const std::string& script_path, LoadOptions options,
+                     std::optional<std::uint32_t> clients, const std::vector<std::string>& expected,
+                     const Outputs& outputs) {
   auto address = parse_host_port(server);
   if (!address) return forward_error(address);
   auto script = read_load_script(script_path);
@@ -89,15 +92,16 @@ Result<bool> run(const std::string& server, const std::string& script_path, Load
     if (!expectation) return forward_error(expectation, "--expect");
     script->expectations.push_back(std::move(*expectation));
   }
-  if (outputs.only_check) return fmt::print("{}: sound\n", script_path), true;
+  if (outputs.only_check) return fmt::print("{}: sound\n", script_path), kAsExpected;
   options.server = *address;
   LiveTable table;
   const bool is_live = ::isatty(STDERR_FILENO) == 1;
-  const StopOnInterrupt interrupt;  // what was measured until then is reported
+  const StopOnInterrupt interrupt;
   options.on_sample = [&](const LoadSample& sample) {
     if (is_live) table.show(sample);
   };
   const LoadReport report = run_load(*script, options, interrupt.token());
+  const bool is_interrupted = interrupt.token().stop_requested();
   table.wipe();
 
   if (!outputs.csv.empty()) {
@@ -110,9 +114,16 @@ Result<bool> run(const std::string& server, const std::string& script_path, Load
   }
   fmt::print(
       "{}", outputs.json ? load_json(report, script->expectations) : load_text(report, script->expectations));
-  if (script->expectations.empty()) return report.total().error_count() == 0;
-  return std::ranges::all_of(script->expectations,
-                             [&](const Expectation& e) { return judge(e, report).is_met; });
+  if (is_interrupted) {
+    std::fprintf(stderr, "selvage-load: interrupted; the report is of what was measured until then\n");
+    return kInterrupted;
+  }
+  const bool is_as_expected = script->expectations.empty()
+                                  ? report.total().error_count() == 0
+                                  : std::ranges::all_of(script->expectations, [&](const Expectation& e) {
+                                      return judge(e, report).is_met;
+                                    });
+  return is_as_expected ? kAsExpected : kNotAsExpected;
 }
 
 }  // namespace
@@ -155,13 +166,13 @@ int main(int argc, char** argv) {
   auto client_options = connection.client_options();
   if (!client_options) {
     std::fprintf(stderr, "selvage-load: %s\n", client_options.error().to_string().c_str());
-    return 2;
+    return kNothingRun;
   }
   options.connection = std::move(*client_options);
-  auto as_expected = run(server, script_path, options, clients, expected, outputs);
-  if (!as_expected) {
-    std::fprintf(stderr, "selvage-load: %s\n", as_expected.error().to_string().c_str());
-    return 2;
+  const auto code = run(server, script_path, options, clients, expected, outputs);
+  if (!code) {
+    std::fprintf(stderr, "selvage-load: %s\n", code.error().to_string().c_str());
+    return kNothingRun;
   }
-  return *as_expected ? 0 : 1;
+  return *code;
 }

@@ -2,6 +2,7 @@
 #include "client/session/client_session.h"
 
 #include <algorithm>
+#include <concepts>
 
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
@@ -25,6 +26,9 @@ constexpr std::uint32_t kMinIdleTimeoutMs = 1000;
 
 /// What a server accepts that has not said so yet: docs/PROTOCOL.md, "Limits".
 constexpr std::uint32_t kUsualMessageBytes = 512u << 10;
+
+/// How long a cancelled publish waits for the server to say so.
+constexpr std::chrono::seconds kCancelTimeout{2};
 
 /// The frame after which nothing comes for its request.
 bool ends_answer(FrameType type) {
@@ -363,6 +367,7 @@ asio::awaitable<Result<void>> ClientSession::exchange(Message message, AnswerRea
   if (stop.stop_requested()) co_return fail(ErrorCode::Cancelled, "cancelled");
   Pending pending{reader, Signal(), std::nullopt, 0};
   if constexpr (requires { message.urgency; }) pending.urgency = message.urgency;
+  pending.is_promise = std::same_as<Message, Publish>;
   pending.least_urgency = least_urgency;
   const PendingEntry entry(shared_from_this(), pending);
   const std::vector<std::byte> frame = to_frame(message, entry.id());
@@ -383,7 +388,16 @@ asio::awaitable<Result<void>> ClientSession::exchange(Message message, AnswerRea
   const DialListener listener(*this, entry.id(), dial);
   // It may have been turned between the message's making and now.
   if (dial) reprioritise(entry.id(), dial->urgency());
-  while (!pending.outcome) co_await pending.answered.wait();
+  while (!pending.outcome) {
+    if (!pending.give_up_at) {
+      co_await pending.answered.wait();
+    } else if (const auto left = *pending.give_up_at - std::chrono::steady_clock::now(); left > left.zero()) {
+      co_await pending.answered.wait_for(left);
+    } else {
+      settle(pending, fail(ErrorCode::Cancelled, "cancelled"));
+      abandon(entry.id());
+    }
+  }
   co_return *pending.outcome;
 }
 
@@ -395,8 +409,15 @@ void ClientSession::settle(Pending& pending, Result<void> outcome) {
 void ClientSession::cancel(std::uint32_t request_id) {
   const auto found = pending_.find(request_id);
   if (found == pending_.end() || found->second->outcome) return;
-  settle(*found->second, fail(ErrorCode::Cancelled, "cancelled"));
-  abandon(request_id);
+  Pending& pending = *found->second;
+  if (!pending.is_promise) {
+    settle(pending, fail(ErrorCode::Cancelled, "cancelled"));
+    abandon(request_id);
+  } else if (!pending.give_up_at) {
+    pending.give_up_at = std::chrono::steady_clock::now() + kCancelTimeout;
+    pending.answered.notify();
+    send(Cancel{}, request_id);
+  }
 }
 
 void ClientSession::reprioritise(std::uint32_t request_id, std::uint8_t urgency) {

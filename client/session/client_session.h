@@ -89,7 +89,8 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
 
   /// Uploads a mesh and waits until it is a model of the server; one at a time. Unauthorised without the
   /// scope; InvalidArgument if the name is in use and not to be replaced; what selvage-pack says of a bad
-  /// mesh; Cancelled. Asked again after the connection was lost, it goes on where it was.
+  /// mesh; Cancelled. Asked again after the connection was lost, it goes on where it was. A stop waits a
+  /// moment for the server, so that nothing is left there; it may come too late, then it was published.
   asio::awaitable<Result<Published>> publish(PublishRequest request, OnPublishState on_state,
                                              std::stop_token stop = {});
   asio::awaitable<Result<void>> unpublish(std::string name);
@@ -114,6 +115,9 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
     std::uint32_t next_seq = 0;
     std::uint8_t urgency = kUsualUrgency;  ///< that the server knows of
     std::uint8_t least_urgency = 0;        ///< not more urgent than this for now
+    bool is_promise = false;               ///< the server goes on with it unless it hears of a Cancel
+    std::optional<std::chrono::steady_clock::time_point>
+        give_up_at;  ///< cancelled; waits for the server's word
   };
   class PendingEntry;
   class CloseUnlessKept;

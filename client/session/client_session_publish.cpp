@@ -51,7 +51,8 @@ asio::awaitable<void> ClientSession::upload(std::uint32_t request_id, std::share
   const std::shared_ptr<ClientSession> self = shared_from_this();
   const std::uint64_t size = state->request.what.size_bytes;
   std::vector<std::byte> frame;
-  while (state->offset < size && !state->is_over && !ended_) {
+  const std::stop_token stop = state->failed.get_token();
+  while (state->offset < size && !state->is_over && !stop.stop_requested() && !ended_) {
     if (!outgoing_.empty()) {
       co_await wake_upload_.wait();
       continue;

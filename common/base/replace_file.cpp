@@ -17,26 +17,30 @@ tl::unexpected<Error> fail_with_errno(std::string_view what) {
   return fail(ErrorCode::Io, std::string(what) + ": " + std::strerror(code));
 }
 
-/// Open for writing under a name of its own; closed and removed unless it was renamed away.
+/// Open for writing; closed and removed unless it was renamed away. Where the file system can, it has no name
+/// before it is whole, so that not even kill -9 leaves anything behind; otherwise one of its own.
 class TemporaryFile {
  public:
-  explicit TemporaryFile(const std::filesystem::path& beside) {
-    for (int attempt = 0; attempt < 100 && file_ < 0; ++attempt) {
-      path_ = beside.string() + ".tmp-" + std::to_string(::getpid()) + "-" + std::to_string(attempt);
-      file_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-      if (file_ < 0 && errno != EEXIST) return;
-    }
+  explicit TemporaryFile(const std::filesystem::path& beside) : path_(beside.string()) {
+    const std::filesystem::path folder = beside.has_parent_path() ? beside.parent_path() : ".";
+    file_ = ::open(folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
+    if (file_ >= 0 && ::access(descriptor_path().c_str(), F_OK) == 0) return;
+    if (file_ >= 0) ::close(file_);
+    const auto open = [this](const std::string& path) {
+      return file_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    };
+    is_named_ = with_name_of_its_own([&](const std::string& path) { return open(path) >= 0; });
   }
   struct Exactly {
     std::filesystem::path path;
   };
   /// At this place and no other; what is there is overwritten.
-  explicit TemporaryFile(const Exactly& place) : path_(place.path.string()) {
+  explicit TemporaryFile(const Exactly& place) : path_(place.path.string()), is_named_(true) {
     file_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   }
   ~TemporaryFile() {
     if (file_ >= 0) ::close(file_);
-    if (!path_.empty() && is_ours_) ::unlink(path_.c_str());
+    if (is_named_ && is_ours_) ::unlink(path_.c_str());
   }
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
@@ -55,7 +59,7 @@ class TemporaryFile {
   }
 
   bool rename_to(const std::filesystem::path& path) {
-    if (!close() || ::rename(path_.c_str(), path.c_str()) != 0) return false;
+    if (!has_name() || !close() || ::rename(path_.c_str(), path.c_str()) != 0) return false;
     is_ours_ = false;
     return true;
   }
@@ -68,8 +72,31 @@ class TemporaryFile {
  private:
   bool close() { return ::close(std::exchange(file_, -1)) == 0; }
 
+  std::string descriptor_path() const { return "/proc/self/fd/" + std::to_string(file_); }
+
+  /// Tries names beside path_ until one is free, which path_ is from then on.
+  template <class Take>
+  bool with_name_of_its_own(const Take& take) {
+    const std::string beside = path_;
+    for (int attempt = 0; attempt < 100; ++attempt) {
+      path_ = beside + ".tmp-" + std::to_string(::getpid()) + "-" + std::to_string(attempt);
+      if (take(path_)) return true;
+      if (errno != EEXIST) return false;
+    }
+    return false;
+  }
+
+  bool has_name() {
+    if (is_named_) return true;
+    return is_named_ = with_name_of_its_own([this](const std::string& path) {
+             return ::linkat(AT_FDCWD, descriptor_path().c_str(), AT_FDCWD, path.c_str(),
+                             AT_SYMLINK_FOLLOW) == 0;
+           });
+  }
+
   std::string path_;
   int file_ = -1;
+  bool is_named_ = false;
   bool is_ours_ = false;
 };
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "common/render/png.h"
 
-#include <cerrno>
 #include <cstdlib>
-#include <cstring>
-#include <fstream>
 #include <memory>
+#include <string_view>
 
 #include <spng.h>
+
+#include "common/base/replace_file.h"
 
 namespace selvage {
 
@@ -43,10 +43,9 @@ Result<std::vector<std::byte>> encode_png(const Image& image) {
 Result<void> write_png(const std::filesystem::path& path, const Image& image) {
   auto bytes = encode_png(image);
   if (!bytes) return forward_error(bytes, path.string());
-  std::ofstream file(path, std::ios::binary | std::ios::trunc);
-  file.write(reinterpret_cast<const char*>(bytes->data()), static_cast<std::streamsize>(bytes->size()));
-  file.close();
-  if (!file) return fail(ErrorCode::Io, path.string() + ": cannot write: " + std::strerror(errno));
+  const std::string_view content(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  auto written = replace_file(path, content);
+  if (!written) return forward_error(written, path.string());
   return {};
 }
 

@@ -267,6 +267,7 @@ int main(int argc, char** argv) try {
   set_log_level(options.log_level());
   set_log_format(options.log_format);
   std::signal(SIGPIPE, SIG_IGN);  // of whoever reads our stdout
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of that upload
   survive_truncated_files();
   allow_many_files();
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // A connection's bytes as either side first sees them: cut into frames, each parsed as the message it says it
-// is. The first byte sets how many bytes each read brings.
+// is. The first byte sets how many bytes each read brings. What is taken for a message can be said again, and
+// then means the same.
 #include <algorithm>
+#include <cstdlib>
 #include <span>
 
 #include "common/net/frame.h"
@@ -12,76 +14,90 @@ namespace {
 
 using namespace selvage;
 
+void require(bool claim) {
+  if (!claim) std::abort();
+}
+
+template <class Message>
+void take(std::span<const std::byte> payload) {
+  const auto message = parse<Message>(payload);
+  if (!message) return require(message.error().code == ErrorCode::Protocol);
+  const auto frame = to_frame(*message, 1);
+  const auto again = parse<Message>(std::span(frame).subspan(kFrameHeaderSize));
+  require(again.has_value());
+  require(to_frame(*again, 1) == frame);
+}
+
 void parse_any(const Frame& frame) {
   switch (frame.header.type) {
     case FrameType::Publish:
-      (void)parse<Publish>(frame.payload);
+      take<Publish>(frame.payload);
       break;
     case FrameType::PublishReady:
-      (void)parse<PublishReady>(frame.payload);
+      take<PublishReady>(frame.payload);
       break;
     case FrameType::PublishProgress:
-      (void)parse<PublishProgress>(frame.payload);
+      take<PublishProgress>(frame.payload);
       break;
     case FrameType::Published:
-      (void)parse<Published>(frame.payload);
+      take<Published>(frame.payload);
       break;
     case FrameType::Unpublish:
-      (void)parse<Unpublish>(frame.payload);
+      take<Unpublish>(frame.payload);
       break;
     case FrameType::Status:
-      (void)parse<Status>(frame.payload);
+      take<Status>(frame.payload);
       break;
     case FrameType::StatusReport:
-      (void)parse<StatusReport>(frame.payload);
+      take<StatusReport>(frame.payload);
       break;
     case FrameType::Hello:
-      (void)parse<Hello>(frame.payload);
+      take<Hello>(frame.payload);
       break;
     case FrameType::HelloAck:
-      (void)parse<HelloAck>(frame.payload);
+      take<HelloAck>(frame.payload);
       break;
     case FrameType::ListModels:
-      (void)parse<ListModels>(frame.payload);
+      take<ListModels>(frame.payload);
       break;
     case FrameType::Models:
-      (void)parse<Models>(frame.payload);
+      take<Models>(frame.payload);
       break;
     case FrameType::OpenModel:
-      (void)parse<OpenModel>(frame.payload);
+      take<OpenModel>(frame.payload);
       break;
     case FrameType::ManifestBegin:
-      (void)parse<ManifestBegin>(frame.payload);
+      take<ManifestBegin>(frame.payload);
       break;
     case FrameType::GetParts:
-      (void)parse<GetParts>(frame.payload);
+      take<GetParts>(frame.payload);
       break;
     case FrameType::PartBegin:
-      (void)parse<PartBegin>(frame.payload);
+      take<PartBegin>(frame.payload);
       break;
     case FrameType::RequestEnd:
-      (void)parse<RequestEnd>(frame.payload);
+      take<RequestEnd>(frame.payload);
       break;
     case FrameType::Credit:
-      (void)parse<Credit>(frame.payload);
+      take<Credit>(frame.payload);
       break;
     case FrameType::Error:
-      (void)parse<ErrorMessage>(frame.payload);
+      take<ErrorMessage>(frame.payload);
       break;
     case FrameType::GoAway:
-      (void)parse<GoAway>(frame.payload);
+      take<GoAway>(frame.payload);
       break;
     case FrameType::Cancel:
-      (void)parse<Cancel>(frame.payload);
+      take<Cancel>(frame.payload);
       break;
     case FrameType::Ping:
-      (void)parse<Ping>(frame.payload);
+      take<Ping>(frame.payload);
       break;
     case FrameType::Pong:
-      (void)parse<Pong>(frame.payload);
+      take<Pong>(frame.payload);
       break;
     case FrameType::Reprioritise:
-      (void)parse<Reprioritise>(frame.payload);
+      take<Reprioritise>(frame.payload);
       break;
     case FrameType::Data:
       break;

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "common/net/messages.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -64,6 +68,21 @@ TYPED_TEST(EveryMessage, SurvivesTruncationAndBitFlips) {
       EXPECT_EQ(parsed.error().code, ErrorCode::Protocol);
     }
   }
+}
+
+/// SELVAGE_WRITE_GOLDEN=1 build/release/tests/net_test writes them anew.
+TYPED_TEST(EveryMessage, IsASeedForTheFuzzer) {
+  Bytes seed = to_frame(sample<TypeParam>(), 1);
+  seed.insert(seed.begin(), std::byte{255});  // see fuzz_frames.cpp
+  std::string name(to_string(TypeParam::kType));
+  const std::string path = SELVAGE_FUZZ_CORPUS_DIR "/fuzz_frames/" + name;
+  if (std::getenv("SELVAGE_WRITE_GOLDEN") != nullptr) {
+    std::ofstream(path, std::ios::binary)
+        .write(reinterpret_cast<const char*>(seed.data()), static_cast<std::streamsize>(seed.size()));
+  }
+  std::ifstream file(path, std::ios::binary);
+  const std::vector<char> there(std::istreambuf_iterator<char>(file), {});
+  EXPECT_TRUE(std::ranges::equal(std::as_bytes(std::span(there)), seed)) << path;
 }
 
 TYPED_TEST(EveryMessage, RefusesGarbage) { EXPECT_FALSE(parse<TypeParam>(Bytes(40, std::byte{0xFF}))); }

@@ -12,14 +12,12 @@
 
 #include "client/session/blocking_client.h"
 #include "common/base/hash.h"
-#include "server/ingest/ingest.h"
+#include "tests/operate/process_fixture.h"
 #include "tests/support/certificates.h"
 #include "tests/support/fake_pack.h"
 #include "tests/support/http_get.h"
 #include "tests/support/mesh_text.h"
-#include "tests/support/server_process.h"
 #include "tests/support/shapes.h"
-#include "tests/support/temp_folder.h"
 
 namespace selvage {
 namespace {
@@ -29,39 +27,19 @@ using testing::run_program;
 using testing::ServerProcess;
 using testing::TestAuthority;
 
-/// printf %s secret | sha256sum; and of "hunter2".
+/// printf %s secret | sha256sum
 const std::string kViewer =
     "viewer read sha256:2bb80d537b1da3e38bd30361aa855686bde0eacd7162fef6a25fe97bf527a25b\n";
-const std::string kModeller =
-    "modeller read,publish sha256:f52fbd32b2b3b86ff88ef6c490628285f482af15ddcb29541f94bcf526a3f6c7\n";
 
 constexpr auto ignore_part = [](ReceivedPart) { return Result<void>(); };
 
-class Process : public ::testing::Test {
+class Process : public ProcessFixture {
  protected:
-  Process() { std::filesystem::create_directory(store()); }
-
-  std::filesystem::path store() const { return folder.path() / "store"; }
-  std::string file(const std::string& name, const std::string& text) const {
-    const auto path = folder.path() / name;
-    std::ofstream(path, std::ios::binary) << text;
-    return path.string();
-  }
-  std::unique_ptr<ServerProcess> start(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.end(), {"--listen", "127.0.0.1:0"});
-    return std::make_unique<ServerProcess>(SELVAGE_SERVER, std::move(arguments), folder.path() / "log");
-  }
-  std::unique_ptr<ServerProcess> start_on_store(std::vector<std::string> arguments = {}) const {
-    arguments.insert(arguments.end(), {"--store", store().string()});
-    return start(std::move(arguments));
-  }
   static ClientOptions with_token(const std::string& token) {
     ClientOptions options;
     options.token = token;
     return options;
   }
-
-  TempFolder folder;
 };
 
 TEST_F(Process, StopsInGoodOrder) {
@@ -324,16 +302,9 @@ TEST_F(Process, KillDuringGetLosesNothingThatArrived) {
 
 /// Ctrl-C ends a get at once; the next one fetches what the first did not.
 TEST_F(Process, AnInterruptedGetGoesOnFromItsCache) {
-  auto soup = shapes::torus(150, 200);
-  for (Vec3& at : soup.positions)
-    at = {static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)};
-  const auto ring = ingest(soup, {.name = "ring", .lossless = true}, serial_for(),
-                           [](const std::string&, double) { return true; });
-  ASSERT_TRUE(ring) << ring.error().message;
-  ASSERT_GT(ring->pack.size(), 96u << 10) << "the server's limit to rates lets a burst pass";
-  std::ofstream(store() / "ring.selvage", std::ios::binary)
-      .write(reinterpret_cast<const char*>(ring->pack.data()),
-             static_cast<std::streamsize>(ring->pack.size()));
+  put_ring(store(), true);
+  ASSERT_GT(std::filesystem::file_size(store() / "ring.selvage"), 96u << 10)
+      << "the server's limit to rates lets a burst pass";
   const std::string output = (folder.path() / "ring.ply").string();
   const std::string cache = (folder.path() / "cache").string();
   const auto has_parts = [&] {

@@ -22,6 +22,7 @@ expects 0 'usage: ./run COMMAND'
 expects 0 'usage: ./run COMMAND' help
 expects 0 'usage: ./run COMMAND' --help
 expects 2 'unknown command: tset' tset
+expects 1 'sanitize knows asan and tsan, not msan' sanitize msan
 expects 1 'corpus needs a folder' corpus
 expects 1 'no such folder: /does/not/exist' corpus /does/not/exist
 ((failures == 0))
