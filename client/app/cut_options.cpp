@@ -12,13 +12,14 @@ namespace {
 
 void add_levels(CLI::App& command, PublishCut& cut) {
   constexpr const char* kGroup = "Levels of detail";
-  auto* levels = command
-                     .add_option("--levels", cut.levels,
-                                 "levels of detail, the finest included: 2 adds one of an eighth of the "
-                                 "triangles, 3 a quarter and a sixteenth, more halve each time; 1: none")
-                     ->check(CLI::Range(1, 16))
-                     ->capture_default_str()
-                     ->group(kGroup);
+  auto* levels =
+      command
+          .add_option("--levels", cut.levels,
+                      "levels of detail, the finest included: 2 adds one of at most an eighth of the "
+                      "triangles, 3 a quarter and a sixteenth, more halve each time; 1: none")
+          ->check(CLI::Range(1, 16))
+          ->capture_default_str()
+          ->group(kGroup);
   auto* ratios = command
                      .add_option("--level-ratios", cut.level_ratios,
                                  "instead: shares of the triangles, falling, for instance 0.25,0.05")

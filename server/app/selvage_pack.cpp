@@ -32,12 +32,13 @@ void add_build(CLI::App& app, BuildCommand& command) {
   build.add_option("--bits", command.bits, "grid planes along the longest side: 2^bits")
       ->check(CLI::Range(8, 24))
       ->capture_default_str();
-  auto* levels = build
-                     .add_option("--levels", command.levels,
-                                 "levels of detail, the finest included: 2 adds one of an eighth of the "
-                                 "triangles, 3 a quarter and a sixteenth, more halve each time; 1: none")
-                     ->check(CLI::Range(1, 16))
-                     ->capture_default_str();
+  auto* levels =
+      build
+          .add_option("--levels", command.levels,
+                      "levels of detail, the finest included: 2 adds one of at most an eighth of the "
+                      "triangles, 3 a quarter and a sixteenth, more halve each time; 1: none")
+          ->check(CLI::Range(1, 16))
+          ->capture_default_str();
   auto* ratios = build
                      .add_option("--level-ratios", command.level_ratios,
                                  "instead: shares of the triangles, falling, for instance 0.25,0.05")
