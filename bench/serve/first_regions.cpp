@@ -30,19 +30,24 @@ double squared_distance(const RegionEntry& a, const RegionEntry& b) {
   return sum;
 }
 
+FetchedModel fetched(Result<Model>& model, const std::string& source, const std::vector<RegionId>& regions) {
+  if (!model) throw std::runtime_error(source + ": " + model.error().message);
+  Selection selection;
+  selection.kind = Selection::Kind::Ids;
+  selection.ids = regions;
+  Fetch fetch = model->fetch(selection);
+  auto result = fetch.wait();
+  if (!result) throw std::runtime_error(source + ": " + result.error().message);
+  if (result->regions != regions.size()) throw std::runtime_error(source + ": regions are missing");
+  return std::move(*result);
+}
+
 }  // namespace
 
 double fetch_seconds(const std::string& source, const std::vector<RegionId>& regions) {
   const auto start = Clock::now();
   auto model = Model::at(source);  // knows what it wants: hello, open and get in one flight
-  if (!model) throw std::runtime_error(model.error().message);
-  Selection selection;
-  selection.kind = Selection::Kind::Ids;
-  selection.ids = regions;
-  Fetch fetch = model->fetch(selection);
-  const auto fetched = fetch.wait();
-  if (!fetched) throw std::runtime_error(fetched.error().message);
-  if (fetched->regions != regions.size()) throw std::runtime_error("regions are missing");
+  (void)fetched(model, source, regions);
   return seconds_since(start);
 }
 
@@ -50,18 +55,29 @@ RegionId random_region(const Directory& directory, std::mt19937& random) {
   return 1 + static_cast<RegionId>(random() % directory.real_region_count());
 }
 
-std::vector<RegionId> random_patch(const Directory& directory, double share, std::mt19937& random) {
+std::vector<RegionId> random_patch(const std::string& pack, const Directory& directory, double share,
+                                   std::mt19937& random) {
   const RegionEntry& centre = directory.regions[random_region(directory, random)];
   std::vector<RegionId> ids;
   for (RegionId id = 1; id < directory.regions.size(); ++id) ids.push_back(id);
   std::ranges::sort(ids, {}, [&](RegionId id) { return squared_distance(directory.regions[id], centre); });
-  double wanted = share * static_cast<double>(directory.triangles);
-  auto end = ids.begin();
-  for (; end != ids.end() && wanted > 0; ++end)
-    wanted -= static_cast<double>(directory.regions[*end].levels[0].triangles);
-  ids.erase(end, ids.end());
-  std::ranges::sort(ids);
-  return ids;
+  const double wanted = share * static_cast<double>(directory.triangles);
+  auto model = Model::open(pack);
+  const auto first = [&](std::size_t count) {
+    std::vector<RegionId> patch(ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(count));
+    std::ranges::sort(patch);
+    return patch;
+  };
+  const auto excess = [&](std::size_t count) {
+    return static_cast<double>(fetched(model, pack, first(count)).mesh.soup.triangles.size()) - wanted;
+  };
+  std::size_t least = 1, most = ids.size();  // the first with enough
+  while (least < most) {
+    const std::size_t middle = (least + most) / 2;
+    (excess(middle) < 0 ? least = middle + 1 : most = middle);
+  }
+  const bool less_is_nearer = least > 1 && -excess(least - 1) < excess(least);
+  return first(less_is_nearer ? least - 1 : least);
 }
 
 double download_seconds(const HostPort& server, const std::string& file) {

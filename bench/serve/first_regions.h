@@ -17,8 +17,10 @@ double fetch_seconds(const std::string& source, const std::vector<RegionId>& reg
 
 /// A region, any with the same chance.
 RegionId random_region(const Directory& directory, std::mt19937& random);
-/// A random region and those around it, nearest first, until they hold `share` of the model's triangles.
-std::vector<RegionId> random_patch(const Directory& directory, double share, std::mt19937& random);
+/// A random region and those around it, nearest first: so many that, stitched, they are as near as can be to
+/// `share` of the model's triangles. `pack` is the model's file.
+std::vector<RegionId> random_patch(const std::string& pack, const Directory& directory, double share,
+                                   std::mt19937& random);
 
 /// Seconds from nothing until a web server has sent all of a file.
 double download_seconds(const HostPort& server, const std::string& file);

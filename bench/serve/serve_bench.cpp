@@ -14,6 +14,7 @@
 #include "bench/serve/closed_loop.h"
 #include "bench/serve/idle_clients.h"
 #include "bench/serve/peers.h"
+#include "bench/serve/private_network.h"
 
 namespace {
 
@@ -84,7 +85,7 @@ void compare(const Peer& selvage, const Peer& nginx, const Pack& pack, const Wor
 
 int main(int argc, char** argv) try {
   CLI::App app("Server CPU a part, idle connections, pings under load.", "serve_bench");
-  std::string server = "build/release/bin/selvage-server";
+  std::string server = "build/release/bin/selvage-server", congestion_control = "cubic";
   unsigned rounds = 5, idle = 10'000;
   int only = -1;
   double seconds = 1.5;
@@ -93,7 +94,11 @@ int main(int argc, char** argv) try {
   app.add_option("--seconds", seconds, "of each measurement")->capture_default_str();
   app.add_option("--idle", idle, "connections to hold; 0 leaves that out")->capture_default_str();
   app.add_option("--only", only, "one of the comparisons, counted from 0")->capture_default_str();
+  app.add_option("--cc", congestion_control, "congestion control; bbr paces every packet by a timer")
+      ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
+  enter_private_network();
+  use_congestion_control(congestion_control);
 
   const std::vector<Work> works = {{"p4", 4 << 10, 4096, 64, 8},   {"p16", 16 << 10, 2048, 64, 8},
                                    {"p64", 64 << 10, 1024, 1, 16}, {"p64", 64 << 10, 1024, 1, 256},
@@ -107,6 +112,7 @@ int main(int argc, char** argv) try {
   const Peer nginx = start_nginx(folder.path());
   {
     const Peer selvage = start_selvage(server, folder.path());
+    std::printf("loopback, %s\n", congestion_control.c_str());
     std::printf("%7s %6s %6s %10s %10s %7s %11s %11s %9s %9s %7s\n", "part", "batch", "conns", "cpu us",
                 "nginx us", "ratio", "parts/s", "nginx", "p99 ms", "nginx", "ratio");
     for (const Work& work : works) {

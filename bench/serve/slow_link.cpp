@@ -19,6 +19,8 @@
 #include <unistd.h>
 #include <vector>
 
+#include "bench/serve/private_network.h"
+
 namespace selvage::bench {
 namespace {
 
@@ -31,28 +33,18 @@ constexpr const char* kDevice = "slow0";
   throw std::runtime_error("no slow link: " + what + ": " + std::strerror(errno));
 }
 
-/// Whoever is not root becomes it in a user namespace, which may then have networks of its own.
-void become_root_somewhere() {
-  if (::geteuid() == 0) return;
-  const auto user = std::to_string(::geteuid()), group = std::to_string(::getegid());
-  if (::unshare(CLONE_NEWUSER) != 0) give_up("user namespaces");
-  std::ofstream("/proc/self/setgroups") << "deny";
-  std::ofstream("/proc/self/uid_map") << "0 " << user << " 1";
-  std::ofstream("/proc/self/gid_map") << "0 " << group << " 1";
-}
-
 /// In a new network, the only way out of it.
 int make_device(const std::string& address, const std::string& congestion_control) {
-  if (::unshare(CLONE_NEWNET) != 0) give_up("network namespaces (root?)");
+  enter_private_network();
   const int device = ::open("/dev/net/tun", O_RDWR | O_NONBLOCK | O_CLOEXEC);
   ifreq request{};
   request.ifr_flags = IFF_TUN | IFF_NO_PI;
   std::strcpy(request.ifr_name, kDevice);
   if (device < 0 || ::ioctl(device, TUNSETIFF, &request) != 0) give_up("/dev/net/tun");
   const std::string name = kDevice;
-  const std::string commands =
-      "ip link set lo up && ip address add " + address + "/24 dev " + name + " && ip link set " + name +
-      " mtu 1500 up && ip route change 10.77.0.0/24 dev " + name + " congctl " + congestion_control;
+  const std::string commands = "ip address add " + address + "/24 dev " + name + " && ip link set " + name +
+                               " mtu 1500 up && ip route change 10.77.0.0/24 dev " + name + " congctl " +
+                               congestion_control;
   if (std::system(commands.c_str()) != 0) give_up(commands);
   return device;
 }
@@ -106,7 +98,6 @@ class Lane {
 }  // namespace
 
 SlowLink::SlowLink(const LinkShape& shape) : shape_(shape) {
-  become_root_somewhere();
   client_device_ = make_device("10.77.0.2", shape.congestion_control);
   clients_side_ = ::open("/proc/thread-self/ns/net", O_RDONLY | O_CLOEXEC);
   server_device_ = make_device(kServerAddress, shape.congestion_control);

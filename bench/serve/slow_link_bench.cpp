@@ -155,7 +155,7 @@ void fetch_parts_of(const Options& options, const BenchFolder& folder) {
   };
   report("a random region", [&] { return std::vector<RegionId>(1, random_region(directory, random)); });
   report("a tenth of the triangles around one, stitched",
-         [&] { return random_patch(directory, 0.1, random); });
+         [&] { return random_patch(folder.path() / "mesh.selvage", directory, 0.1, random); });
 }
 
 }  // namespace

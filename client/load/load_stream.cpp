@@ -103,7 +103,8 @@ class LoadStream final : public ByteStream {
       co_return written;
     }
     Uplink::Waiting one{Clock::now() + uplink_->delay, {}};
-    for (const auto& piece : pieces) one.bytes.insert(one.bytes.end(), piece.begin(), piece.end());
+    for (const Piece& piece : pieces)
+      one.bytes.insert(one.bytes.end(), piece.bytes.begin(), piece.bytes.end());
     uplink_->waiting.push_back(std::move(one));
     uplink_->wakes.notify();
     co_return Result<void>();

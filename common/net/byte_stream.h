@@ -23,8 +23,17 @@ namespace selvage {
 
 namespace asio = boost::asio;
 
-/// Bytes that are written one after the other, as if they were one piece.
-using Pieces = std::vector<std::span<const std::byte>>;
+/// Bytes to write.
+struct Piece {
+  std::span<const std::byte> bytes;
+  /// Of a mapped file: the kernel may hold on to the pages after the write instead of copying them.
+  bool is_mapped = false;
+
+  Piece(std::span<const std::byte> these, bool mapped = false) : bytes(these), is_mapped(mapped) {}
+  Piece(const std::vector<std::byte>& these) : bytes(these) {}
+};
+/// Written one after the other, as if they were one piece.
+using Pieces = std::vector<Piece>;
 
 class ByteStream {
  public:

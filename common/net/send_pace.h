@@ -19,7 +19,7 @@ namespace selvage {
 class SendPace {
  public:
   static constexpr std::size_t kLeastWrite = 4u << 10;
-  static constexpr std::size_t kMostWrite = 256u << 10;
+  static constexpr std::size_t kMostWrite = 1u << 20;
 
   /// Sets what the kernel may hold.
   explicit SendPace(boost::asio::ip::tcp::socket& socket);

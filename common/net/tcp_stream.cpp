@@ -15,6 +15,7 @@
 #include <boost/asio/steady_timer.hpp>
 
 #include "common/net/await.h"
+#include "common/net/page_pipe.h"
 #include "common/net/send_pace.h"
 
 namespace selvage {
@@ -23,26 +24,24 @@ namespace {
 using asio::ip::tcp;
 using boost::system::error_code;
 
-/// What is left of the pieces of one write, sent with a system call at a time.
+/// Handing over a page costs about as much as copying a few hundred bytes of it into memory that the kernel
+/// has just used, but far less than copying it into memory that is not in the processor's cache.
+constexpr std::size_t kLeastHandedOver = 32u << 10;
+/// Before and between what is handed over, so much at most goes the same way.
+constexpr std::size_t kMostCopied = 8u << 10;
+
+bool is_handed_over(const Piece& piece) { return piece.is_mapped && piece.bytes.size() >= kLeastHandedOver; }
+
+/// What is left of the pieces of one write, sent with a few system calls at a time.
 class Unsent {
  public:
-  explicit Unsent(const Pieces& pieces) : pieces_(pieces) { skip_empty(); }
+  explicit Unsent(const Pieces& pieces) : pieces_(pieces) { advance(0); }
 
   bool empty() const { return next_ == pieces_.size(); }
 
   /// As ::send does.
   ssize_t send(int socket) {
-    std::array<iovec, 128> parts;
-    std::size_t count = 0, at = next_;
-    for (; at < pieces_.size() && count < parts.size(); ++at) {
-      const std::size_t done = at == next_ ? done_ : 0;
-      parts[count++] = {const_cast<std::byte*>(pieces_[at].data()) + done, pieces_[at].size() - done};
-    }
-    msghdr message{};
-    message.msg_iov = parts.data();
-    message.msg_iovlen = count;
-    const bool more = at < pieces_.size();
-    const ssize_t sent = ::sendmsg(socket, &message, MSG_NOSIGNAL | (more ? MSG_MORE : 0));
+    const ssize_t sent = send_some(socket);
     if (sent > 0) advance(static_cast<std::size_t>(sent));
     return sent;
   }
@@ -50,31 +49,86 @@ class Unsent {
   /// Reads a byte of every page of it.
   void look_through() const {
     for (std::size_t at = next_; at < pieces_.size(); ++at) {
-      const volatile std::byte* bytes = pieces_[at].data();
-      for (std::size_t i = 0; i < pieces_[at].size(); i += 1024) (void)bytes[i];
-      if (!pieces_[at].empty()) (void)bytes[pieces_[at].size() - 1];
+      const std::span<const std::byte> piece = pieces_[at].bytes;
+      const volatile std::byte* bytes = piece.data();
+      for (std::size_t i = 0; i < piece.size(); i += 1024) (void)bytes[i];
+      if (!piece.empty()) (void)bytes[piece.size() - 1];
     }
   }
 
  private:
+  /// Pieces from `begin` up to one that is handed over, as many as one system call takes.
+  struct CopiedRun {
+    std::array<iovec, 128> parts;
+    std::size_t count = 0, size = 0, end = 0;
+    std::span<const iovec> filled() const { return std::span(parts).first(count); }
+  };
+
+  std::span<const std::byte> rest_of(std::size_t at) const {
+    return pieces_[at].bytes.subspan(at == next_ ? done_ : 0);
+  }
+
+  CopiedRun copied_from(std::size_t begin, bool copy_all) const {
+    CopiedRun run;
+    for (run.end = begin; run.end < pieces_.size() && run.count < run.parts.size(); ++run.end) {
+      if (!copy_all && is_handed_over(pieces_[run.end])) break;
+      const std::span<const std::byte> piece = rest_of(run.end);
+      run.parts[run.count++] = {const_cast<std::byte*>(piece.data()), piece.size()};
+      run.size += piece.size();
+    }
+    return run;
+  }
+
+  ssize_t send_some(int socket) const {
+    CopiedRun run = copied_from(next_, false);
+    const bool hands_over = run.end < pieces_.size() && run.size <= kMostCopied;
+    PagePipe* pipe = hands_over ? PagePipe::of_this_thread() : nullptr;
+    if (pipe) return hand_over(socket, *pipe, run);
+    if (run.count == 0) run = copied_from(next_, true);
+    msghdr message{};
+    message.msg_iov = run.parts.data();
+    message.msg_iovlen = run.count;
+    return ::sendmsg(socket, &message, MSG_NOSIGNAL | (run.end < pieces_.size() ? MSG_MORE : 0));
+  }
+
+  /// As much as the pipe takes, `run` first, which it changes.
+  ssize_t hand_over(int socket, PagePipe& pipe, CopiedRun& run) const {
+    std::size_t at = next_;
+    for (;;) {
+      if (run.count > 0 && pipe.add_copies(run.filled()) != static_cast<ssize_t>(run.size)) break;
+      at = run.end;
+      if (at == pieces_.size() || !is_handed_over(pieces_[at])) break;
+      const std::span<const std::byte> pages = rest_of(at);
+      const ssize_t added = pipe.add_pages(pages);
+      if (added < 0 && pipe.empty()) return added;
+      if (added != static_cast<ssize_t>(pages.size())) break;
+      run = copied_from(++at, false);
+      if (run.size > kMostCopied) break;
+    }
+    return pipe.send(socket, at < pieces_.size());
+  }
+
+  /// To the next byte that is left, if any.
   void advance(std::size_t bytes) {
-    while (bytes > 0) {
-      const std::size_t step = std::min(bytes, pieces_[next_].size() - done_);
+    while (bytes > 0 || (!empty() && rest_of(next_).empty())) {
+      const std::size_t step = std::min(bytes, rest_of(next_).size());
       bytes -= step;
       done_ += step;
-      if (done_ < pieces_[next_].size()) return;
+      if (done_ < pieces_[next_].bytes.size()) return;
       ++next_;
       done_ = 0;
-      skip_empty();
     }
-  }
-  void skip_empty() {
-    while (next_ < pieces_.size() && pieces_[next_].empty()) ++next_;
   }
 
   const Pieces& pieces_;
   std::size_t next_ = 0, done_ = 0;  ///< piece, and bytes of it
 };
+
+std::size_t size_of(const Pieces& pieces) {
+  std::size_t sum = 0;
+  for (const Piece& piece : pieces) sum += piece.bytes.size();
+  return sum;
+}
 
 class TcpStream final : public ByteStream {
  public:
@@ -114,8 +168,10 @@ class TcpStream final : public ByteStream {
       if (error) co_return connection_failure(error);
       waited = true;
     }
-    // Others have their turn, even when the kernel takes whatever we have.
-    if (!waited) co_await asio::post(socket_.get_executor(), asio::use_awaitable);
+    // Others have their turn, even when the kernel takes whatever we have; after less than a whole write
+    // there is no more at once.
+    const bool may_go_on = size_of(pieces) >= write_size() / 2;
+    if (!waited && may_go_on) co_await asio::post(socket_.get_executor(), asio::use_awaitable);
     co_return Result<void>();
   }
 

@@ -121,7 +121,7 @@ class TlsStream final : public ByteStream {
 
   asio::awaitable<Result<void>> write(const Pieces& pieces) override {
     buffers_.clear();
-    for (const auto& piece : pieces) buffers_.emplace_back(piece.data(), piece.size());
+    for (const Piece& piece : pieces) buffers_.emplace_back(piece.bytes.data(), piece.bytes.size());
     auto [error, count] = co_await asio::async_write(stream_, buffers_, kAwait);
     if (error) co_return failure(error);
     co_return Result<void>();

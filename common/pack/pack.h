@@ -48,6 +48,8 @@ class Pack {
   const Directory& directory() const { return directory_; }
   std::span<const std::byte> directory_bytes() const;  ///< what the wire sends as the manifest
   std::span<const std::byte> bytes() const { return bytes_; }
+  /// bytes() are a mapped file's, not memory that is freed one day.
+  bool is_mapped() const { return mapped_ != nullptr; }
   /// Somebody wrote into the file, or cut it short: what bytes() gives is not the pack that was opened. Seen
   /// at the latest when a missing byte was read (survive_truncated_files), or by whoever says so.
   bool is_damaged() const { return mapped_ && mapped_->is_damaged(); }

@@ -23,7 +23,7 @@ void Batch::add_buffered(std::size_t start) {
   if (continues) {
     runs_.back().size += size;
   } else {
-    runs_.push_back({nullptr, start, size});
+    runs_.push_back({nullptr, start, size, false});
   }
 }
 
@@ -33,14 +33,14 @@ void Batch::add_bytes(std::span<const std::byte> bytes) {
   add_buffered(start);
 }
 
-void Batch::add_data(const FrameHeader& header, std::span<const std::byte> payload) {
+void Batch::add_data(const FrameHeader& header, const Piece& payload) {
   const std::size_t start = buffer_.size();
   buffer_.resize(start + kFrameHeaderSize);
   write_header(header, HeaderBytes(&buffer_[start], kFrameHeaderSize));
   add_buffered(start);
-  if (payload.size() <= Outbox::kCopiedData) return add_bytes(payload);
-  runs_.push_back({payload.data(), 0, payload.size()});
-  size_bytes_ += payload.size();
+  if (payload.bytes.size() <= Outbox::kCopiedData) return add_bytes(payload.bytes);
+  runs_.push_back({payload.bytes.data(), 0, payload.bytes.size(), payload.is_mapped});
+  size_bytes_ += payload.bytes.size();
 }
 
 void Batch::keep(const std::shared_ptr<const Pack>& pack) {
@@ -49,8 +49,10 @@ void Batch::keep(const std::shared_ptr<const Pack>& pack) {
 
 const Pieces& Batch::pieces() {
   pieces_.clear();
-  for (const Run& run : runs_)
-    pieces_.emplace_back(run.outside ? run.outside : &buffer_[run.start], run.size);
+  for (const Run& run : runs_) {
+    const std::byte* bytes = run.outside ? run.outside : &buffer_[run.start];
+    pieces_.emplace_back(std::span(bytes, run.size), run.is_mapped);
+  }
   return pieces_;
 }
 
@@ -171,7 +173,7 @@ bool Outbox::send_bytes(Sending& sending, std::span<const std::byte> bytes, Batc
     const bool ends = sending.at + size == bytes.size();
     const FrameHeader header{static_cast<std::uint32_t>(size), FrameType::Data,
                              ends ? kFlagEnd : std::uint8_t{0}, sending.answer.request_id, sending.seq++};
-    batch.add_data(header, bytes.subspan(sending.at, size));
+    batch.add_data(header, Piece(bytes.subspan(sending.at, size), sending.answer.pack->is_mapped()));
     credit_ -= size;
     sending.at += size;
     sending.sums.bytes += size;

@@ -61,7 +61,7 @@ class Batch {
   }
   void add_bytes(std::span<const std::byte> bytes);  ///< of whole frames
   /// `payload` stays where it is.
-  void add_data(const FrameHeader& header, std::span<const std::byte> payload);
+  void add_data(const FrameHeader& header, const Piece& payload);
   void keep(const std::shared_ptr<const Pack>& pack);
 
  private:
@@ -69,6 +69,7 @@ class Batch {
   struct Run {
     const std::byte* outside = nullptr;
     std::size_t start = 0, size = 0;
+    bool is_mapped = false;
   };
   void add_buffered(std::size_t start);
 

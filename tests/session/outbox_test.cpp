@@ -24,7 +24,7 @@ Answer get_all(std::uint32_t request_id, const std::shared_ptr<const Pack>& pack
 
 std::vector<std::byte> joined(Batch& batch) {
   std::vector<std::byte> bytes;
-  for (const auto& piece : batch.pieces()) bytes.insert(bytes.end(), piece.begin(), piece.end());
+  for (const Piece& piece : batch.pieces()) bytes.insert(bytes.end(), piece.bytes.begin(), piece.bytes.end());
   return bytes;
 }
 

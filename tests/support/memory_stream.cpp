@@ -50,15 +50,16 @@ class MemoryStream final : public ByteStream {
 
   asio::awaitable<Result<void>> write(const Pieces& pieces) override {
     if (fails()) co_return fail(ErrorCode::Io, "this write fails");
-    for (std::span<const std::byte> piece : pieces) {
-      while (!piece.empty()) {
+    for (const Piece& piece : pieces) {
+      std::span<const std::byte> left = piece.bytes;
+      while (!left.empty()) {
         while (out_->bytes.size() >= out_->capacity && !out_->closed) co_await out_->writable.wait();
         if (out_->closed) co_return fail(ErrorCode::Io, "the other side has gone");
-        const std::size_t count = std::min(piece.size(), out_->capacity - out_->bytes.size());
-        out_->bytes.insert(out_->bytes.end(), piece.begin(),
-                           piece.begin() + static_cast<std::ptrdiff_t>(count));
+        const std::size_t count = std::min(left.size(), out_->capacity - out_->bytes.size());
+        out_->bytes.insert(out_->bytes.end(), left.begin(),
+                           left.begin() + static_cast<std::ptrdiff_t>(count));
         out_->readable.notify();
-        piece = piece.subspan(count);
+        left = left.subspan(count);
       }
     }
     co_return Result<void>();
