@@ -8,11 +8,11 @@
 #include <CLI/CLI.hpp>
 
 #include "client/app/compare_command.h"
-#include "client/app/cut_options.h"
 #include "client/app/draw_command.h"
 #include "client/app/get_command.h"
 #include "client/app/list_command.h"
 #include "client/app/publish_command.h"
+#include "client/app/publish_cut_options.h"
 #include "client/app/status_command.h"
 #include "client/app/verify_command.h"
 
@@ -144,7 +144,7 @@ void add(CLI::App& app, PublishCommand& command) {
       ->check(CLI::Range(0.0, 86'400.0))
       ->capture_default_str();
   publish.add_flag("--json", command.json, "print the result as JSON");
-  add_cut_options(publish, command.cut);
+  add_publish_cut_options(publish, command.cut);
   command.connection.add_to(publish);
   publish.footer(
       "The server must be one that grants the scope 'publish' to your token. An upload that was cut off "

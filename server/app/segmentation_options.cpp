@@ -1,37 +1,23 @@
 // SPDX-License-Identifier: MIT
 #include "server/app/segmentation_options.h"
 
-#include <charconv>
 #include <map>
 #include <string>
 
 #include <CLI/CLI.hpp>
+
+#include "common/app/cut_options.h"
 
 namespace selvage {
 namespace {
 
 constexpr const char* kGroup = "Segmentation";
 
-/// "auto" or a count.
-void set_region_count(const std::string& text, SegmentOptions& options) {
-  options.target_regions = 0;
-  if (text == "auto") return;
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, options.target_regions);
-  if (error != std::errc{} || stop != end) {
-    throw CLI::ValidationError("--regions", "'" + text + "' is neither auto nor a number of regions");
-  }
-}
-
 void add_sizes(CLI::App& command, SegmentOptions& options) {
-  command
-      .add_option_function<std::string>(
-          "--regions", [&options](const std::string& text) { set_region_count(text, options); },
-          "auto: as many as the shape has; for streaming, on models above 20,000 triangles, of 384 to 4096 "
-          "vertices each; N: "
-          "merge until N are left, whatever their size (xmrg, cad, mw99)")
-      ->type_name("auto|N")
-      ->default_str("auto")
+  add_region_count_option(
+      command, options.target_regions,
+      "auto: as many as the shape has; for streaming, on models above 20,000 triangles, of 384 to 4096 "
+      "vertices each; N: merge until N are left, whatever their size (xmrg, cad, mw99)")
       ->group(kGroup);
   command
       .add_option("--min-region", options.min_region_vertices,

@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/app/cut_options.h"
 #include "server/app/build_command.h"
 #include "server/app/inspect_command.h"
 #include "server/app/sample_command.h"
@@ -32,24 +33,7 @@ void add_build(CLI::App& app, BuildCommand& command) {
   build.add_option("--bits", command.bits, "grid planes along the longest side: 2^bits")
       ->check(CLI::Range(8, 24))
       ->capture_default_str();
-  auto* levels =
-      build
-          .add_option("--levels", command.levels,
-                      "levels of detail, the finest included: 2 adds one of at most an eighth of the "
-                      "triangles, 3 a quarter and a sixteenth, more halve each time; 1: none")
-          ->check(CLI::Range(1, 16))
-          ->capture_default_str();
-  auto* ratios = build
-                     .add_option("--level-ratios", command.level_ratios,
-                                 "instead: shares of the triangles, falling, for instance 0.25,0.05")
-                     ->delimiter(',')
-                     ->excludes(levels);
-  build
-      .add_option("--level-errors", command.level_errors,
-                  "instead: deviations that collapses may leave, in model units, rising")
-      ->delimiter(',')
-      ->excludes(levels)
-      ->excludes(ratios);
+  selvage::add_level_options(build, command.levels, command.level_ratios, command.level_errors);
   build.add_option("--name", command.name, "the model's name for people (default: MODEL's name)");
   build.add_option("--units", command.units, "what one unit of the model is, for instance mm");
   build.add_option("--meta", command.metadata, "key and value that travel with the model; may be repeated");

@@ -63,7 +63,7 @@ only_in 'common/base/log\.cpp' 'spdlog/' 'spdlog stays behind common/base/log.h'
 only_in 'common/base/(parallel|task_group)\.cpp' '(tbb|oneapi)/' 'threads come from common/base/parallel.h and task_group.h'
 only_in 'common/(base|net)/' 'openssl/' 'OpenSSL serves hashing and TLS only'
 only_in 'client/http/' 'curl/' 'libcurl stays behind client/http/range_client.h'
-only_in '(server|client)/app/' 'CLI/' 'command lines are an app matter'
+only_in '(common|server|client)/app/' 'CLI/' 'command lines are an app matter'
 
 forbid '' '[^">/.]*\.h"' 'includes name files from the repository root'
 

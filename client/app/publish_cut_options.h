@@ -11,6 +11,6 @@ namespace selvage {
 
 /// The options of `publish` that say how the server is to cut the mesh, called as those of `selvage-pack
 /// build`. `cut` must outlive the command.
-void add_cut_options(CLI::App& command, PublishCut& cut);
+void add_publish_cut_options(CLI::App& command, PublishCut& cut);
 
 }  // namespace selvage
