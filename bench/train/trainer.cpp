@@ -112,8 +112,8 @@ class LeastSquares {
   double total_ = 0;
 };
 
-std::int16_t fixed(double value, double scale) {
-  return static_cast<std::int16_t>(std::lround(std::clamp(value * scale, -16000.0, 16000.0)));
+std::int16_t fixed(double value, double scale, double most = 16000) {
+  return static_cast<std::int16_t>(std::lround(std::clamp(value * scale, -most, most)));
 }
 
 /// Calls visit(walk, surroundings, position) for every vertex that something predicts; `visit` places it.
@@ -146,7 +146,7 @@ std::array<ShapeWeights, kShapeClasses> fit_shape(const TrainingSet& set) {
           const double expected =
               std::exp2(std::max({around.logs[0], around.logs[2], around.logs[3] - 40}) / 8.0) / 4;
           for (int axis = 0; axis < 3; ++axis) {
-            const double y = position[axis] - around.base[axis] - double{around.mean[axis]};
+            const double y = position[axis] - double{around.mean[axis]};
             error += std::abs(y);
             fits[around.shape_class].add({around.beyond[axis], around.ring[axis], around.trend[axis]}, y,
                                          1 / ((expected + 1) * (expected + std::abs(y) + 1)));
@@ -160,7 +160,8 @@ std::array<ShapeWeights, kShapeClasses> fit_shape(const TrainingSet& set) {
   std::array<ShapeWeights, kShapeClasses> weights;
   for (unsigned i = 0; i < kShapeClasses; ++i) {
     const auto w = fits[i].solve(300);
-    weights[i] = {fixed(w[0], 1024), fixed(w[1], 1024), fixed(w[2], 1024)};
+    const auto weight = [&](std::size_t feature) { return fixed(w[feature], 1024, kMostShapeWeight); };
+    weights[i] = {weight(0), weight(1), weight(2)};
   }
   return weights;
 }

@@ -22,30 +22,27 @@ inline std::uint32_t decode_coarse(Decoder& in, unsigned symbol, const SizeClass
   return std::min(symbol + excess, kMaxResidual >> size.raw_low_bits);
 }
 
-/// A residual of which the model told `coarse`.
-struct Coarse {
-  std::uint32_t coarse;
-  int low_bits;
-  int bits;  ///< raw ones: a sign unless the residual must be 0, and the low bits above it
-  Coarse(std::uint32_t magnitude, const SizeClass& size)
-      : coarse(magnitude),
-        low_bits(size.raw_low_bits),
-        bits(low_bits + ((magnitude | static_cast<unsigned>(low_bits)) != 0)) {}
-  /// Its bits are the lowest of `more_bits`.
-  std::int32_t with(std::uint64_t more_bits) const {
-    const std::uint32_t raw = static_cast<std::uint32_t>(more_bits) & ((1u << bits) - 1);
-    const auto magnitude = static_cast<std::int32_t>(coarse << low_bits | raw >> 1);
+/// A residual and the number of its raw bits: a sign unless it must be 0, then the low bits.
+struct Residual {
+  std::int32_t magnitude, value;
+  int bits;
+  /// The model told `coarse`; the bits are the lowest ones of `window`.
+  Residual(std::uint32_t coarse, int low_bits, std::uint64_t window)
+      : bits(low_bits + ((coarse | static_cast<unsigned>(low_bits)) != 0)) {
+    const auto raw = static_cast<std::uint32_t>(window);
+    magnitude = static_cast<std::int32_t>(coarse << low_bits | (raw >> 1 & ((1u << low_bits) - 1)));
     const auto sign = static_cast<std::int32_t>(raw & 1);
-    return (magnitude ^ -sign) + sign;
+    value = (magnitude ^ -sign) + sign;
   }
 };
 
-/// The box in lanes; anything goes in the last one.
+/// The box in lanes.
 struct LaneBox {
   IntLanes low, high;
   explicit LaneBox(const GridBox& box)
-      : low{box.low.x, box.low.y, box.low.z, INT32_MIN},
-        high{box.high.x, box.high.y, box.high.z, INT32_MAX} {}
+      : low{box.low.x, box.low.y, box.low.z, 0}, high{box.high.x, box.high.y, box.high.z, 0} {}
+  /// Negative in those of the first three lanes that lie outside.
+  IntLanes outside(IntLanes v) const { return (v - low) | (high - v); }
 };
 
 bool decode_blends(Decoder& in, Blends& blends) {
@@ -70,7 +67,7 @@ IntLanes along_axes(unsigned normal_axis, std::int32_t n, std::int32_t u, std::i
   return (first & n) | (second & u) | (third & w);
 }
 
-/// A position that something predicts. One outside the box is pulled in, and remembered.
+/// A position that something predicts. One outside the box leaves its mark in `outside`.
 void decode_position(Decoder& in, const Predictor& predictor, const Surroundings& around, const LaneBox& box,
                      GeometryWalk& walk, IntLanes& outside) {
   const IntLanes expected = predictor.expected_sizes(around);
@@ -88,19 +85,18 @@ void decode_position(Decoder& in, const Predictor& predictor, const Surroundings
   const SizeClass third = predictor.size_class(around, expected, 2, log_u, log_w);
   const unsigned symbol_last = in.symbol(magnitude_model(2, around, third));
   const std::uint32_t coarse_last = decode_coarse(in, symbol_last, third);
-  const Coarse coarse[] = {{coarse_u, first}, {coarse_w, second}, {coarse_last, third}};
-  static_assert(EntropyDecoder::kPeek >= 2 * kMostResidualBits);
-  const std::uint64_t tangential_bits = in.peek_bits();
-  const std::int32_t u = coarse[0].with(tangential_bits);
-  const std::int32_t w = coarse[1].with(tangential_bits >> coarse[0].bits);
-  in.skip_bits(coarse[0].bits + coarse[1].bits);
-  const std::int32_t last = coarse[2].with(in.peek_bits());
-  in.skip_bits(coarse[2].bits);
-  const std::int32_t tangent = predictor.tangent_residual(around, u, w);
-  const IntLanes position = predictor.predict(around) + along_axes(around.normal_axis, last + tangent, u, w);
-  const IntLanes within = clamped(position, box.low, box.high);
-  outside |= within ^ position;
-  walk.place(around, within, magnitude_of(u) + magnitude_of(w), magnitude_of(last));
+  static_assert(EntropyDecoder::kPeek >= 3 * kMostResidualBits);
+  std::uint64_t window = in.peek_bits();
+  const Residual u(coarse_u, first.raw_low_bits, window);
+  const Residual w(coarse_w, second.raw_low_bits, window >>= u.bits);
+  const Residual last(coarse_last, third.raw_low_bits, window >>= w.bits);
+  in.skip_bits(u.bits + w.bits + last.bits);
+  const std::int32_t tangent = predictor.tangent_residual(around, u.value, w.value);
+  const IntLanes position =
+      predictor.predict(around) + along_axes(around.normal_axis, last.value + tangent, u.value, w.value);
+  outside |= box.outside(position);
+  walk.place(around, position, static_cast<std::uint32_t>(u.magnitude + w.magnitude),
+             static_cast<std::uint32_t>(last.magnitude));
 }
 
 std::vector<bool> decode_turned(Decoder& in, std::uint32_t triangles) {
@@ -150,7 +146,7 @@ Result<void> decode_positions(Decoder& in, const GridBox& box, std::uint32_t ver
     if (!decode_offset(in, box, position)) return corrupt("a position outside the box");
     walk.place_first(position);
   }
-  if (!in.ok() || (outside[0] | outside[1] | outside[2]) != 0) return corrupt("a position outside the box");
+  if (!in.ok() || (outside[0] | outside[1] | outside[2]) < 0) return corrupt("a position outside the box");
   if (!walk.order().is_complete() || walk.count() != vertices)
     return corrupt("not the promised number of vertices");
   mesh.positions = walk.positions();

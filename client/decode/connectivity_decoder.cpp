@@ -51,9 +51,10 @@ Result<void> decode_connectivity(EntropyDecoder& in, std::uint32_t triangles, Fa
   ClersGrower grower(std::move(splits), symbols, table);
   for (std::uint32_t i = 0; i < symbols; ++i) {
     const unsigned symbol = in.symbol(region_model::kClers + grower.context());
-    if (symbol >= kClersCount || !grower.grow(static_cast<Clers>(symbol)) || !in.ok())
+    if (symbol >= kClersCount || !grower.grow(static_cast<Clers>(symbol)))
       return corrupt("impossible symbol");
   }
+  if (!in.ok()) return corrupt("cut short");
   const std::uint32_t components = grower.finish();
   for (std::uint32_t gate = 0; gate < components; ++gate) {
     if (in.symbol(region_model::kIsClosed) != 0 && !grower.close(gate))

@@ -12,7 +12,7 @@ bool ClersGrower::split(FanCorner gate) {
   const VertexId tail = tail_, head = head_;
   const FanCorner left = left_branch_of_split();
   if (left == kNone || left == gate || !is_open(left)) return false;
-  const VertexId left_tail = table_.vertex(next_on(left)), left_head = table_.vertex(prev_on(left));
+  const VertexId left_tail = table_.next_vertex(left), left_head = table_.vertex(prev_on(left));
   if (left_head == tail || left_head == head || left_tail == tail || left_tail == head) return false;
   const FanCorner arriving_at_tail = arriving(tail);
   const VertexId joined = merge(tail, gate + 1, left_head, prev_on(left));
@@ -50,9 +50,9 @@ bool ClersGrower::close(std::uint32_t gate) {
   // The border u -> v -> w -> u, the component on its left, backwards.
   const VertexId u = table_.vertex(facing_uv + 1), v = table_.vertex(facing_uv + 2);
   const FanCorner facing_wu = arriving(u);
-  const VertexId w = table_.vertex(next_on(facing_wu));
+  const VertexId w = table_.next_vertex(facing_wu);
   const FanCorner facing_vw = arriving(w);
-  if (table_.vertex(next_on(facing_vw)) != v || w == u || v == u) return false;
+  if (table_.next_vertex(facing_vw) != v || w == u || v == u) return false;
   const FanCorner tip = add_triangle(w, v, u);
   table_.glue(tip, facing_uv);
   table_.glue(tip + 1, facing_wu);

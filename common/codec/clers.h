@@ -97,8 +97,8 @@ inline unsigned ClersGrower::context() const {
   return table_.add_triangle(tip, after, before);
 }
 
-inline VertexId ClersGrower::add_vertex() {
-  table_.vertices.push_back({});
+[[gnu::always_inline]] inline VertexId ClersGrower::add_vertex() {
+  table_.vertices.emplace_back();
   return table_.vertex_count() - 1;
 }
 
@@ -130,11 +130,11 @@ inline void ClersGrower::close_fan(VertexId v, FanCorner own) {
     last_ = Clers::C;
     // The triangle closes the tail's fan: between the gate and the border edge that arrives at the tail.
     const FanCorner left = arriving(tail_);
-    const VertexId after = table_.vertex(next_on(left));
+    const VertexId after = table_.next_vertex(left);
     if (after == head_) return false;
     const FanCorner tip = add_triangle(tail_, after, head_);
-    table_.glue(tip + 1, gate);
-    table_.glue(tip + 2, left);
+    table_.glue_new_to_first<1>(tip, gate);
+    table_.glue_new<2>(tip, left);
     close_fan(tail_, tip);
     arriving(head_) = tip;
     gates_.back() = tip;
@@ -145,7 +145,7 @@ inline void ClersGrower::close_fan(VertexId v, FanCorner own) {
     last_ = Clers::R;
     const VertexId v = add_vertex();
     const FanCorner tip = add_triangle(head_, tail_, v);
-    table_.glue(tip + 2, gate);
+    table_.glue_new_to_first<2>(tip, gate);
     arriving(v) = tip;
     arriving(head_) = tip + 1;
     gates_.back() = tip;
@@ -156,7 +156,7 @@ inline void ClersGrower::close_fan(VertexId v, FanCorner own) {
     last_ = Clers::L;
     const VertexId v = add_vertex();
     const FanCorner tip = add_triangle(tail_, v, head_);
-    table_.glue(tip + 1, gate);
+    table_.glue_new_to_first<1>(tip, gate);
     arriving(v) = tip + 2;
     arriving(head_) = tip;
     gates_.back() = tip;

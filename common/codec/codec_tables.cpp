@@ -10,6 +10,11 @@ namespace {
 
 #include "common/codec/trained_tables.inc"  // made by bench/train
 
+static_assert(std::all_of(kShapeWeights.begin(), kShapeWeights.end(), [](const ShapeWeights& w) {
+  return std::max({w.beyond, w.ring, w.trend}) <= kMostShapeWeight &&
+         std::min({w.beyond, w.ring, w.trend}) >= -kMostShapeWeight;
+}));
+
 constexpr unsigned kLevelsPerOctave = 12;
 /// 2^(16 - i / 12), rounded.
 constexpr std::array<std::uint32_t, kLevelsPerOctave> kLevelMantissa = {
@@ -61,6 +66,7 @@ StartModel unpack(const PackedModel& packed) {
     model.cumulative[s] = static_cast<std::uint16_t>(at);
     at += frequencies[s];
   }
+  model.cumulative[kSymbols] = kProbabilityOne;
   model.uses = packed.uses;
   model.uses_limit = packed.uses_limit;
   return model;

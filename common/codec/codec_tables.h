@@ -76,6 +76,8 @@ struct ShapeWeights {
   std::int16_t beyond = 0, ring = 0, trend = 0;
 };
 inline constexpr unsigned kShapeClasses = 64;
+/// No weight is larger, so predictions stay within 2^28 of a grid of 24 bits, whatever a stream claims.
+inline constexpr std::int16_t kMostShapeWeight = 1024;
 
 /// The logarithm of a residual's size as a linear function of other logarithms, in 256ths: tangential and
 /// normal residuals nearby, spread, reach, recent tangential and normal residuals, a constant, and the

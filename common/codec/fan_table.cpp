@@ -101,8 +101,8 @@ CornerTable FanTable::plain(std::span<const VertexId> number_of_vertex) const {
     for (std::size_t i = 0; i < piece; ++i, words += kWords) {
       for (std::size_t k = 0; k < 3; ++k) numbers[3 * i + k] = number_of_vertex[words[k]];
       IntLanes turns;
-      std::memcpy(&turns, words + kTurns, sizeof turns);
-      turns = plain_opposites(turns);
+      std::memcpy(&turns, words + kTurns - 1, sizeof turns);
+      turns = plain_opposites(__builtin_shufflevector(turns, turns, 1, 2, 3, 0));
       std::memcpy(&opposites[3 * i], &turns, sizeof turns);
     }
     table.vertex_of_corner.insert(table.vertex_of_corner.end(), numbers.data(), numbers.data() + 3 * piece);

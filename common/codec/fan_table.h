@@ -8,7 +8,11 @@
 //            \ /   \        what lies opposite, turned back once. So one load makes a step of the turn, and
 //             v-----a       nothing waits for a division by three.
 //
-// Corner k of triangle t is 8t + k; vertices and turns of a triangle are half a cache line.
+// Corner k of triangle t is 8t + k; vertices and turns of a triangle are half a cache line:
+//
+//   vertices of corners 0, 1, 2, and 0 again | turns of corner 2, then of 0, 1, 2
+//
+// So what belongs to the next corner, or its turn to the one before, is a word away whichever corner it is.
 #pragma once
 
 #include <cstdint>
@@ -24,8 +28,9 @@ namespace selvage {
 /// 8 * triangle + place in the triangle.
 using FanCorner = std::uint32_t;
 
+/// Place 3, where a triangle's first vertex is repeated, counts as place 0.
 constexpr FanCorner next_on(FanCorner c) { return c + 1 - (c & 2) - ((c & 2) >> 1); }
-constexpr FanCorner prev_on(FanCorner c) { return next_on(next_on(c)); }
+constexpr FanCorner prev_on(FanCorner c) { return c + 2 - 3 * ((c | c >> 1) & 1); }
 constexpr TriangleId triangle_on(FanCorner c) { return c >> 3; }
 constexpr FanCorner fan_corner(CornerId c) { return 8 * (c / 3) + c % 3; }
 
@@ -54,19 +59,36 @@ class FanTable {
   std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(used_ / kWords); }
   std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(vertices.size()); }
   VertexId vertex(FanCorner c) const { return words_.data()[c]; }
+  VertexId next_vertex(FanCorner c) const { return words_.data()[c + 1]; }
   void prefetch(FanCorner c) const { __builtin_prefetch(words_.data() + c); }
-  void set_vertex(FanCorner c, VertexId v) { words_.data()[c] = v; }
+  void set_vertex(FanCorner c, VertexId v) {
+    words_.data()[c] = v;
+    if (c % kWords == 0) words_.data()[c + 3] = v;
+  }
   /// The next corner on the rim of the fan that c is on the rim of; kNone past a border.
   FanCorner turn(FanCorner c) const { return words_.data()[c + kTurns]; }
+  FanCorner turn_of_prev(FanCorner c) const { return words_.data()[c + kTurns - 1]; }
   FanCorner opposite(FanCorner c) const { return turn(c) == kNone ? kNone : next_on(turn(c)); }
   /// The same vertex's corner in the next triangle clockwise; kNone past a border.
-  FanCorner swing_cw(FanCorner c) const { return turn(prev_on(c)); }
+  FanCorner swing_cw(FanCorner c) const { return turn_of_prev(c); }
 
   /// A triangle without neighbours; gives its first corner. There must be room.
   [[gnu::always_inline]] FanCorner add_triangle(VertexId a, VertexId b, VertexId c);
-  [[gnu::always_inline]] void glue(FanCorner a, FanCorner b) {
-    words_.data()[a + kTurns] = prev_on(b);
-    words_.data()[b + kTurns] = prev_on(a);
+  void glue(FanCorner a, FanCorner b) {
+    set_turn(a, prev_on(b));
+    set_turn(b, prev_on(a));
+  }
+  /// The same for corner `kPlace` of the triangle that begins at `first`, and for the corner at which a
+  /// triangle begins: what needs no computing is not computed.
+  template <FanCorner kPlace>
+  [[gnu::always_inline]] void glue_new(FanCorner first, FanCorner to) {
+    set_turn_of_new<kPlace>(first, prev_on(to));
+    set_turn(to, first + (kPlace + 2) % 3);
+  }
+  template <FanCorner kPlace>
+  [[gnu::always_inline]] void glue_new_to_first(FanCorner first, FanCorner to) {
+    set_turn_of_new<kPlace>(first, to + 2);
+    words_.data()[to + kTurns] = first + (kPlace + 2) % 3;
   }
   /// Takes triangles away, given ascending; the last ones of those that stay move to the places that fall
   /// free, lowest place first. Gives former numbers. What `vertices` says of the corners of those that go
@@ -77,21 +99,30 @@ class FanTable {
   CornerTable plain(std::span<const VertexId> number_of_vertex) const;
 
  private:
-  void set_turn(FanCorner c, FanCorner to) { words_.data()[c + kTurns] = to; }
+  /// Both words are written, without a jump: they are the same one but for the last corner.
+  [[gnu::always_inline]] void set_turn(FanCorner c, FanCorner to) {
+    const FanCorner is_last = c >> 1 & 1;
+    words_.data()[c + kTurns] = words_.data()[c + kTurns - 3 * is_last] = to;
+  }
+  template <FanCorner kPlace>
+  void set_turn_of_new(FanCorner first, FanCorner to) {
+    words_.data()[first + kTurns + kPlace] = to;
+    if (kPlace == 2) words_.data()[first + kTurns - 1] = to;
+  }
   void open_edge(FanCorner c);
   void move_triangle(TriangleId from, TriangleId to);
 
-  static constexpr std::size_t kWords = 8, kTurns = 4;
+  static constexpr std::size_t kWords = 8, kTurns = 5;
 
   std::size_t used_ = 0;
-  Scratch<std::uint32_t> words_;  ///< eight a triangle: three vertices, one unused, three turns, one unused
+  Scratch<std::uint32_t> words_;
 };
 
 inline FanCorner FanTable::add_triangle(VertexId a, VertexId b, VertexId c) {
   std::uint32_t* words = words_.data() + used_;
   const auto first = static_cast<FanCorner>(used_);
-  words[0] = a, words[1] = b, words[2] = c;
-  words[kTurns] = words[kTurns + 1] = words[kTurns + 2] = words[kTurns + 3] = kNone;
+  words[0] = words[3] = a, words[1] = b, words[2] = c;
+  words[4] = words[5] = words[6] = words[7] = kNone;
   used_ += kWords;
   return first;
 }

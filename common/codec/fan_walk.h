@@ -18,19 +18,18 @@ namespace selvage {
 
 /// A vertex whose turn has come, and what around it comes before. Numbers are those of the new order.
 struct Fan {
-  static constexpr unsigned kMostNeighbours = 16, kMostParallelograms = 8;
+  static constexpr unsigned kMost = 62;  ///< neighbours, and parallelograms
 
   VertexId old_number;
   unsigned triangles;
   bool is_border;
-  unsigned neighbours;      ///< known ones; of more than kMostNeighbours the first so many
-  unsigned parallelograms;  ///< likewise
-  std::array<VertexId, kMostNeighbours> neighbour;
+  unsigned neighbours, parallelograms;  ///< known ones
+  std::array<VertexId, kMost> neighbour;
   /// Of a triangle around the vertex its two other vertices, and the one across from them.
   struct Parallelogram {
     VertexId begin, end, across;
   };
-  std::array<Parallelogram, kMostParallelograms> parallelogram;
+  std::array<Parallelogram, kMost> parallelogram;
 };
 
 class FanWalk {
@@ -38,7 +37,7 @@ class FanWalk {
   /// What a walk needs room for, kept between walks.
   struct Memory {
     Scratch<std::uint32_t> states;
-    Scratch<FanCorner> well, once, corners;
+    Scratch<FanCorner> well, once, rims;
   };
 
   /// Ends after `most_vertices` at the latest. Borrows `table` and `memory`.
@@ -64,28 +63,30 @@ class FanWalk {
 
  private:
   /// The triangles around a vertex counter-clockwise: each one's corner at the neighbour that it begins with,
-  /// and that neighbour's state; in an open fan the last neighbour as well. Sets of them are bits, the last
-  /// one lowest, so that the neighbour that a triangle ends with is the next lower bit. Fans beyond kMost
-  /// triangles are cut short.
+  /// and that neighbour's state; in an open fan the last neighbour as well. The first one's place is kFirst,
+  /// every next one's a lower one. Sets of them are bits by place; so the neighbour that a triangle ends with
+  /// is the next lower bit. Below the last neighbour of a closed fan lies the first one's state again. Fans
+  /// beyond kMost triangles are cut short.
   struct Ring {
-    static constexpr unsigned kMost = 62;
+    static constexpr unsigned kMost = Fan::kMost, kFirst = 63;
     unsigned triangles = 0;
     unsigned neighbours = 0;
     bool is_border = false;
     std::uint64_t unknown = 0;  ///< of the neighbours
-    std::array<FanCorner, kMost + 1> rims;
-    std::array<std::uint32_t, kMost + 1> states;
+    std::array<FanCorner, kFirst + 1> rims;
+    std::array<std::uint32_t, kFirst + 1> states;
 
-    std::uint64_t all_neighbours() const { return (std::uint64_t{1} << neighbours) - 1; }
+    static std::uint64_t first_ones(unsigned count) { return ~std::uint64_t{0} << (kFirst + 1 - count); }
+    std::uint64_t all_neighbours() const { return first_ones(neighbours); }
     /// Triangles as bits of the neighbours they begin with.
-    std::uint64_t all_triangles() const { return all_neighbours() & ~std::uint64_t{neighbours - triangles}; }
+    std::uint64_t all_triangles() const { return first_ones(triangles); }
     /// Of a set of neighbours: the triangles that end with one.
-    std::uint64_t ending_with(std::uint64_t set) const { return set << 1 | set >> (neighbours - 1); }
-    unsigned place(std::uint64_t set) const {
-      return neighbours - 1 - static_cast<unsigned>(std::countr_zero(set));
+    std::uint64_t ending_with(std::uint64_t set) const {
+      return set << 1 | set >> kFirst << (kFirst + 1 - neighbours);
     }
+    static unsigned lowest(std::uint64_t set) { return static_cast<unsigned>(std::countr_zero(set)); }
     std::uint32_t begin(unsigned place) const { return states[place]; }
-    std::uint32_t end(unsigned place) const { return states[place + 1 == neighbours ? 0 : place + 1]; }
+    std::uint32_t end(unsigned place) const { return states[place - 1]; }
   };
 
   /// A vertex's state is its new number or, above it, how many triangles predict it (kOffered, up to two)
@@ -107,7 +108,7 @@ class FanWalk {
   std::size_t next_well_ = 0, well_end_ = 0, next_once_ = 0, once_end_ = 0;
   FanCorner next_seed_ = 0, current_ = kNone;
   Ring ring_;
-  FanCorner* corner_of_visited_;
+  FanCorner* rim_of_visited_;  ///< where its fan begins
   std::vector<VertexId> border_;
 };
 
@@ -149,14 +150,15 @@ SELVAGE_ONE_CALLER bool FanWalk::turn() {
 SELVAGE_ONE_CALLER void FanWalk::turn_inside(unsigned triangles) {
   FanCorner rim = next_on(current_);
   std::uint64_t unknown = 0;
-  for (unsigned i = 0; i < kSteps; ++i) {
+  for (unsigned place = Ring::kFirst; place > Ring::kFirst - kSteps; --place) {
     const std::uint32_t state = states_[table_.vertex(rim)];
-    ring_.rims[i] = rim;
-    ring_.states[i] = state;
+    ring_.rims[place] = rim;
+    ring_.states[place] = state;
     unknown = unknown * 2 + (state >> 31);
     rim = table_.turn(rim);
   }
-  ring_.unknown = unknown >> (kSteps - triangles);
+  ring_.unknown = unknown << (Ring::kFirst + 1 - kSteps) & Ring::first_ones(triangles);
+  ring_.states[Ring::kFirst - triangles] = ring_.states[Ring::kFirst];
   ring_.is_border = false;
   ring_.neighbours = ring_.triangles = triangles;
   corners_left_ -= triangles;
@@ -166,7 +168,7 @@ SELVAGE_ONE_CALLER void FanWalk::turn_inside(unsigned triangles) {
 SELVAGE_ONE_CALLER void FanWalk::look_ahead() const {
   for (std::uint64_t left = ring_.unknown & ring_.ending_with(ring_.unknown) & ring_.all_triangles();
        left != 0; left &= left - 1) {
-    const FanCorner turned = table_.turn(prev_on(ring_.rims[ring_.place(left)]));
+    const FanCorner turned = table_.turn_of_prev(ring_.rims[Ring::lowest(left)]);
     if (turned != kNone) table_.prefetch(turned);
   }
 }
@@ -175,8 +177,9 @@ SELVAGE_ONE_CALLER void FanWalk::look_ahead() const {
 SELVAGE_ONE_CALLER void FanWalk::offer() {
   const std::uint64_t offered = (ring_.unknown ^ ring_.ending_with(ring_.unknown)) & ring_.all_triangles();
   for (std::uint64_t left = offered; left != 0; left &= left - 1) {
-    const unsigned place = ring_.place(left);
-    const FanCorner rim = ring_.rims[place], corner = ring_.begin(place) >= kUnvisited ? rim : next_on(rim);
+    const unsigned place = Ring::lowest(left);
+    // The neighbour that the triangle begins with, or the next one. Place 3 of a triangle will do.
+    const FanCorner corner = ring_.rims[place] + (ring_.begin(place) < kUnvisited);
     std::uint32_t& state = states_[table_.vertex(corner)];
     // Both are written, one counts; none does if the neighbour has been offered often enough.
     once_[once_end_] = well_[well_end_] = corner;
@@ -189,14 +192,14 @@ SELVAGE_ONE_CALLER void FanWalk::offer() {
 SELVAGE_ONE_CALLER void FanWalk::gather(Fan& fan) {
   const std::uint64_t known = ring_.all_neighbours() & ~ring_.unknown;
   unsigned m = 0, n = 0;
-  for (std::uint64_t left = known; left != 0 && m < Fan::kMostNeighbours; left &= left - 1)
-    fan.neighbour[m++] = ring_.begin(ring_.place(left));
-  for (std::uint64_t left = known & ring_.ending_with(known) & ring_.all_triangles();
-       left != 0 && n < Fan::kMostParallelograms; left &= left - 1) {
-    const unsigned place = ring_.place(left);
-    const FanCorner turned = table_.turn(prev_on(ring_.rims[place]));
+  for (std::uint64_t left = known; left != 0; left &= left - 1)
+    fan.neighbour[m++] = ring_.begin(Ring::lowest(left));
+  for (std::uint64_t left = known & ring_.ending_with(known) & ring_.all_triangles(); left != 0;
+       left &= left - 1) {
+    const unsigned place = Ring::lowest(left);
+    const FanCorner turned = table_.turn_of_prev(ring_.rims[place]);
     if (turned == kNone) continue;
-    const std::uint32_t across = states_[table_.vertex(next_on(turned))];
+    const std::uint32_t across = states_[table_.next_vertex(turned)];
     fan.parallelogram[n] = {ring_.begin(place), ring_.end(place), across};
     n += across < kUnvisited;
   }
@@ -206,7 +209,7 @@ SELVAGE_ONE_CALLER void FanWalk::gather(Fan& fan) {
   fan.triangles = ring_.triangles;
   fan.is_border = ring_.is_border;
   states_[fan.old_number] = count_;
-  corner_of_visited_[count_++] = prev_on(ring_.rims[0]);
+  rim_of_visited_[count_++] = ring_.rims[Ring::kFirst];
 }
 
 #undef SELVAGE_ONE_CALLER

@@ -9,8 +9,7 @@ GeometryWalk::GeometryWalk(const FanTable& table, std::uint32_t most_vertices, s
     : order_(table, most_vertices, memory.order), known_(memory.known.make(most_vertices)) {
   // Until residuals are known: about an edge's length, taking the region for a square.
   const int half_octaves = std::bit_width(table.triangle_count());
-  recent_tangential_ = recent_normal_ =
-      32 * log_size(static_cast<std::uint64_t>(extent) * 4 >> half_octaves / 2);
+  recent_ = splat(log_size(static_cast<std::uint64_t>(extent) * 4 >> half_octaves / 2) << 20);
 }
 
 void GeometryWalk::place_first(const GridPoint& position) {

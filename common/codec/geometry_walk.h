@@ -19,7 +19,7 @@ namespace selvage {
 class GeometryWalk {
   /// Sums over neighbours are sums of lanes.
   struct Known {
-    IntLanes position;  ///< and the tangential residual
+    IntLanes position;  ///< below kMostCoordinate, and the tangential residual
     FloatLanes error;   ///< against the mean parallelogram, and the normal residual
   };
 
@@ -48,6 +48,7 @@ class GeometryWalk {
 
   /// What the current vertex turned out to be. `tangential` and `normal` are the magnitudes of the coded
   /// residuals.
+  /// Whatever a stream claims, what of a coordinate lies beyond 24 bits is ignored.
   void place(const Surroundings& around, IntLanes position, std::uint32_t tangential, std::uint32_t normal);
   /// A vertex without neighbours, which nothing predicts.
   void place_first(const GridPoint& position);
@@ -68,7 +69,7 @@ class GeometryWalk {
   bool is_ahead_ = false;
   Known* known_;  ///< by number
   VertexId count_ = 0;
-  std::int32_t recent_tangential_, recent_normal_;  ///< running means of logarithms, in 32nds
+  IntLanes recent_;  ///< running means of log_of_magnitudes of the residuals, tangential and normal
 };
 
 template <int kStep>
@@ -79,9 +80,9 @@ template <int kStep>
   if (kStep == 2) order_.gather(fan_of(order_.count()));
 }
 
-inline constexpr std::array<float, Fan::kMostNeighbours + 1> kReciprocal = [] {
-  std::array<float, Fan::kMostNeighbours + 1> reciprocal{};
-  for (unsigned n = 1; n <= Fan::kMostNeighbours; ++n) reciprocal[n] = 1.0F / static_cast<float>(n);
+inline constexpr std::array<float, Fan::kMost + 1> kReciprocal = [] {
+  std::array<float, Fan::kMost + 1> reciprocal{};
+  for (unsigned n = 1; n <= Fan::kMost; ++n) reciprocal[n] = 1.0F / static_cast<float>(n);
   return reciprocal;
 }();
 
@@ -93,11 +94,10 @@ inline unsigned shape_class_of(unsigned parallelograms, unsigned valence, bool i
 
 /// Finds the axis that a normal is closest to, and how the plane rises along it.
 inline void set_tangent_plane(FloatLanes normal, Surroundings& around) {
+  // Without jumps: which axis it is can't be guessed. By whether x >= y, y >= z and z >= x.
+  static constexpr std::uint8_t kAxis[8] = {2, 0, 1, 0, 2, 2, 1, 1};
   const FloatLanes size = absolute(normal);
-  // Without jumps: which axis it is can't be guessed.
-  const unsigned is_x = static_cast<unsigned>(size[0] >= size[1]) & static_cast<unsigned>(size[0] >= size[2]);
-  const unsigned is_y = (is_x ^ 1) & static_cast<unsigned>(size[1] >= size[2]);
-  const unsigned axis = 2 - 2 * is_x - is_y;
+  const unsigned axis = kAxis[bits_of(size >= __builtin_shufflevector(size, size, 1, 2, 0, 3)) & 7];
   const float twice[] = {normal[0], normal[1], normal[2], normal[0], normal[1]};
   const float along = twice[axis], scale = along == 0 ? 0 : -1.0F / along;
   around.normal_axis = axis;
@@ -108,57 +108,51 @@ inline void set_tangent_plane(FloatLanes normal, Surroundings& around) {
 [[gnu::always_inline]] inline void GeometryWalk::look_around(const Fan& fan, Surroundings& around) const {
   const Known* known = known_;
   const unsigned m = fan.neighbours, n = fan.parallelograms;
-  IntLanes base = known[fan.neighbour[0]].position;
-  base[3] = 0;
   IntLanes ring{};
   FloatLanes errors{};
   for (unsigned i = 0; i < m; ++i) {
     const Known& neighbour = known[fan.neighbour[i]];
-    ring += neighbour.position - base;
+    ring += neighbour.position;
     errors += neighbour.error;
   }
-
-  std::array<IntLanes, Fan::kMostParallelograms> tips;
-  IntLanes sum{}, edges{};
-  FloatLanes normal{};
-  for (unsigned i = 0; i < n; ++i) {
-    const Fan::Parallelogram& at = fan.parallelogram[i];
-    const IntLanes p = known[at.begin].position - base, q = known[at.end].position - base,
-                   r = known[at.across].position - base;
-    tips[i] = p + q - r;
-    sum += tips[i];
-    edges += p + q;
-    normal += cross(to_float(q - p), to_float(r - p));
-  }
-
   const FloatLanes mean_ring = to_float(ring) * kReciprocal[m], mean_error = errors * kReciprocal[m];
+  const FloatLanes sizes_nearby = __builtin_shufflevector(mean_ring, mean_error, 3, 7, 3, 7);
 
   around.parallelograms = n;
   around.size_class = std::min(n, 3u);
-  around.base = base;
-  around.recent_tangential = recent_tangential_ / 32;
-  around.recent_normal = recent_normal_ / 32;
+  around.recent = from_log(recent_);
   if (n == 0) {
     around.shape_class = 0;
     around.mean = mean_ring;
     around.beyond = around.ring = around.trend = FloatLanes{};
     around.normal_axis = 2;
     around.slopes[0] = around.slopes[1] = 0;
-    around.logs = log8(FloatLanes{mean_ring[3], mean_error[3], 0, 0} * 4.0F + 1.0F);
+    around.logs =
+        from_log(log_of_magnitudes(__builtin_shufflevector(sizes_nearby, FloatLanes{}, 0, 1, 4, 5)));
     return;
   }
 
-  const FloatLanes mean = to_float(sum) * kReciprocal[n], edge = to_float(edges) * (0.5F * kReciprocal[n]);
-  FloatLanes spread{};
-  for (unsigned i = 0; i < n; ++i) spread += absolute(to_float(tips[i]) - mean);
+  IntLanes tips{}, edges{}, tip;
+  FloatLanes normal{};
+  unsigned i = 0;
+  do {
+    const Fan::Parallelogram& at = fan.parallelogram[i];
+    const IntLanes p = known[at.begin].position, q = known[at.end].position, r = known[at.across].position;
+    const IntLanes edge = p + q;
+    tip = edge - r;
+    edges += edge;
+    tips += tip;
+    normal += cross(to_float(q - p), to_float(r - p));
+  } while (++i < n);
+
+  const FloatLanes mean = to_float(tips) * kReciprocal[n], edge = to_float(edges) * (0.5F * kReciprocal[n]);
   around.shape_class = shape_class_of(n, fan.triangles, fan.is_border);
   around.mean = mean;
   around.beyond = mean - edge;
   around.ring = mean_ring - edge;
   around.trend = mean_error;
-  const float mean_spread = sum_of_three(spread) * kReciprocal[n];
-  const float reach = sum_of_three(absolute(around.beyond));
-  around.logs = log8(FloatLanes{mean_ring[3], mean_error[3], mean_spread, reach} * 4.0F + 1.0F);
+  const FloatLanes sums = sums_of_three(absolute(to_float(tip) - mean), absolute(around.beyond));
+  around.logs = from_log(log_of_magnitudes(__builtin_shufflevector(sizes_nearby, sums, 0, 1, 4, 5)));
   set_tangent_plane(normal, around);
 }
 
@@ -177,17 +171,19 @@ inline void set_tangent_plane(FloatLanes normal, Surroundings& around) {
 
 inline void GeometryWalk::place(const Surroundings& around, IntLanes position, std::uint32_t tangential,
                                 std::uint32_t normal) {
-  // Beyond any grid; keeps sums of sixteen within 32 bits whatever a stream claims.
-  constexpr std::uint32_t kMost = 1 << 24;
+  constexpr std::uint32_t kMost = kMostCoordinate;
+  const IntLanes sizes{static_cast<std::int32_t>(std::min(tangential, kMost)),
+                       static_cast<std::int32_t>(std::min(normal, kMost)), 0, 0};
+  const FloatLanes float_sizes = to_float(sizes);
+  position &= static_cast<std::int32_t>(kMost - 1);
   Known& known = known_[count_++];
   FloatLanes error{};
-  if (around.parallelograms > 0) error = to_float(position - around.base) - around.mean;
-  error[3] = static_cast<float>(static_cast<std::int32_t>(std::min(normal, kMost)));
-  position[3] = static_cast<std::int32_t>(std::min(tangential, kMost));
+  if (around.parallelograms > 0) error = to_float(position) - around.mean;
+  error[3] = float_sizes[1];
+  position[3] = sizes[0];
   known.position = position;
   known.error = error;
-  recent_tangential_ += 2 * log_of_magnitude(tangential) - (recent_tangential_ >> 4);
-  recent_normal_ += 2 * log_of_magnitude(normal) - (recent_normal_ >> 4);
+  recent_ += (log_of_magnitudes(float_sizes) - recent_) >> 4;
 }
 
 }  // namespace selvage

@@ -8,6 +8,10 @@
 #include <bit>
 #include <cstdint>
 
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
 namespace selvage {
 
 using IntLanes = std::int32_t __attribute__((vector_size(16)));
@@ -20,25 +24,28 @@ inline FloatLanes to_float(IntLanes v) { return __builtin_convertvector(v, Float
 inline FloatLanes absolute(FloatLanes v) {
   return std::bit_cast<FloatLanes>(std::bit_cast<IntLanes>(v) & 0x7FFFFFFF);
 }
-inline IntLanes clamped(IntLanes v, IntLanes low, IntLanes high) {
-  v = v < low ? low : v;
-  return v > high ? high : v;
-}
-
-/// To the nearest integer, halves away from zero. Anything beyond 2^28 becomes 2^28.
+/// To the nearest integer, halves away from zero. For |v| < 2^31.
 inline IntLanes rounded(FloatLanes v) {
-  constexpr float kMost = 1 << 28;
-  v = v < -kMost ? splat(-kMost) : v;
-  v = v > kMost ? splat(kMost) : v;
   const IntLanes sign = std::bit_cast<IntLanes>(v) & splat(INT32_MIN);
   const auto half = std::bit_cast<FloatLanes>(sign | std::bit_cast<IntLanes>(splat(0.5F)));
   return __builtin_convertvector(v + half, IntLanes);
 }
 
-/// 8 times the binary logarithm, linear between powers of two. For v >= 1.
-inline FloatLanes log8(FloatLanes v) {
-  const IntLanes above_one = std::bit_cast<IntLanes>(v) - std::bit_cast<std::int32_t>(1.0F);
-  return to_float(above_one) * (1.0F / (1 << 20));
+/// 8 times the binary logarithm of 4v + 1, linear between powers of two, in 2^-20ths. For v >= 0.
+inline IntLanes log_of_magnitudes(FloatLanes v) {
+  return std::bit_cast<IntLanes>(v + 0.25F) - std::bit_cast<std::int32_t>(0.25F);
+}
+/// The same as a whole number.
+inline FloatLanes from_log(IntLanes log) { return to_float(log) * (1.0F / (1 << 20)); }
+
+/// Bit i: whether lane i is true.
+inline unsigned bits_of(IntLanes truth) {
+#if defined(__SSE2__)
+  return static_cast<unsigned>(_mm_movemask_ps((__m128)truth));
+#else
+  const IntLanes bits = truth & IntLanes{1, 2, 4, 8};
+  return static_cast<unsigned>(bits[0] | bits[1] | bits[2] | bits[3]);
+#endif
 }
 
 /// Lanes 0 to 2; the last lane of the result means nothing.
@@ -49,6 +56,11 @@ inline FloatLanes cross(FloatLanes a, FloatLanes b) {
   return __builtin_shufflevector(c, c, 1, 2, 0, 3);
 }
 
-inline float sum_of_three(FloatLanes v) { return v[0] + v[1] + v[2]; }
+/// In lanes 0 and 1, for a and for b: lane 0 plus lane 2, plus lane 1.
+inline FloatLanes sums_of_three(FloatLanes a, FloatLanes b) {
+  const FloatLanes low = __builtin_shufflevector(a, b, 0, 4, 1, 5),
+                   high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+  return low + high + __builtin_shufflevector(low, low, 2, 3, 2, 3);
+}
 
 }  // namespace selvage

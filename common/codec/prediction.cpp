@@ -8,8 +8,8 @@ namespace {
 constexpr float kConstantFeature = 64;
 
 /// Every product and sum is exact.
-float blended(std::int16_t weight, unsigned quarters) {
-  return static_cast<float>(weight * static_cast<int>(quarters)) * (1.0F / 4096);
+FloatLanes blended(std::int16_t weight, unsigned quarters) {
+  return splat(static_cast<float>(weight * static_cast<int>(quarters)) * (1.0F / 4096));
 }
 
 }  // namespace
@@ -38,8 +38,8 @@ std::array<double, kSizeFeatures> Predictor::size_features(const Surroundings& a
           around.logs[1],
           around.logs[2],
           around.logs[3],
-          static_cast<double>(around.recent_tangential),
-          static_cast<double>(around.recent_normal),
+          around.recent[0],
+          around.recent[1],
           kConstantFeature,
           static_cast<double>(log_u),
           static_cast<double>(log_w)};

@@ -44,12 +44,10 @@ struct Surroundings {
   unsigned parallelograms;
   unsigned shape_class, size_class;
   unsigned normal_axis;
-  IntLanes base;  ///< position of a neighbour; the last lane is 0
-  FloatLanes mean, beyond, ring,
-      trend;        ///< P - base, P - E, N - E, T; without parallelograms N - base, 0, 0, 0
-  float slopes[2];  ///< rise along the normal axis for a step along axis + 1, axis + 2
-  FloatLanes logs;  ///< log8 of four times: errors nearby, tangential and normal; spread; reach
-  std::int32_t recent_tangential, recent_normal;  ///< running means of the same
+  FloatLanes mean, beyond, ring, trend;  ///< P, P - E, N - E, T; without parallelograms N, 0, 0, 0
+  float slopes[2];                       ///< rise along the normal axis for a step along axis + 1, axis + 2
+  FloatLanes logs;    ///< log_of_magnitudes: errors nearby, tangential and normal; spread; reach
+  FloatLanes recent;  ///< running means of the same: tangential and normal residuals
 };
 
 /// How a residual of one axis is coded.
@@ -58,7 +56,7 @@ struct SizeClass {
   int raw_low_bits = 0;    ///< bits of the magnitude that are noise at this size and go uncoded
 };
 
-inline constexpr int kMostSize = 8 * 24 - 1;
+inline constexpr int kMostSize = 8 * 23 - 1;
 /// What a residual takes at most besides its symbol: low bits and sign.
 inline constexpr int kMostResidualBits = kMostSize / 8 - 4 + 1;
 
@@ -73,24 +71,22 @@ constexpr std::int16_t log_size(std::uint64_t x) {
 }
 
 /// log_size of four times a magnitude.
-inline std::int32_t log_of_magnitude(std::uint32_t magnitude) {
-  static constexpr auto kSmall = [] {
-    std::array<std::int16_t, 256> logs{};
-    for (unsigned m = 0; m < logs.size(); ++m) logs[m] = log_size(4 * m);
-    return logs;
-  }();
-  return magnitude < kSmall.size() ? kSmall[magnitude] : log_size(4 * std::uint64_t{magnitude});
+constexpr std::int16_t log_of_magnitude(std::uint32_t magnitude) {
+  return log_size(4 * std::uint64_t{magnitude});
 }
 
 /// The logarithm of a residual by what its model said, so that the next axis need not wait for raw bits.
 inline std::int32_t coarse_log(std::uint32_t symbol, const SizeClass& size) {
   static constexpr auto kLogs = [] {
     std::array<std::int16_t, kMagnitudeEscape + 1> logs{};
-    for (unsigned m = 0; m < logs.size(); ++m) logs[m] = log_size(4 * m);
+    for (unsigned m = 0; m < logs.size(); ++m) logs[m] = log_of_magnitude(m);
     return logs;
   }();
   return kLogs[symbol] + 8 * size.raw_low_bits;
 }
+
+/// Coordinates are below this; so sums over a fan stay within 32 bits.
+inline constexpr std::uint32_t kMostCoordinate = 1u << 24;
 
 inline std::uint32_t magnitude_of(std::int32_t residual) {
   return static_cast<std::uint32_t>(residual < 0 ? -residual : residual);
@@ -105,7 +101,7 @@ class Predictor {
     const Shape& weights = shape_[around.shape_class];
     const FloatLanes corrected = around.mean + weights.beyond * around.beyond + weights.ring * around.ring +
                                  weights.trend * around.trend;
-    return around.base + rounded(corrected);
+    return rounded(corrected);
   }
 
   /// What the tangent plane says about the residual along around.normal_axis, given the other two.
@@ -125,11 +121,10 @@ class Predictor {
     if (axis == 1) sum += weights.second * log_u;
     if (axis == 2) sum += weights.third[0] * log_u + weights.third[1] * log_w;
     // Compares that become moves: jumps would be mispredicted.
-    int size = sum >> 8;
-    size = size < 0 ? 0 : size;
-    size = size > kMostSize ? kMostSize : size;
-    const int low_bits = size / 8 - 4;
-    return {static_cast<unsigned>(size) / 4, low_bits < 0 ? 0 : low_bits};
+    int clamped = sum >> 8;
+    clamped = clamped < 0 ? 0 : clamped;
+    const auto size = static_cast<unsigned>(clamped > kMostSize ? kMostSize : clamped);
+    return {size / 4, static_cast<int>(size / 8 < 4 ? 0 : size / 8 - 4)};
   }
   /// What size classes weigh, for training.
   static std::array<double, kSizeFeatures> size_features(const Surroundings& around, std::int32_t log_u,
@@ -137,7 +132,7 @@ class Predictor {
 
  private:
   struct Shape {
-    float beyond, ring, trend;
+    FloatLanes beyond, ring, trend;  ///< the same in all lanes
   };
   struct KnownResiduals {
     std::int32_t second, third[2];
@@ -152,10 +147,11 @@ class Predictor {
 
 inline IntLanes Predictor::expected_sizes(const Surroundings& around) const {
   const auto& weights = size_[around.size_class];
-  FloatLanes sum = weights[6];
-  sum += weights[4] * static_cast<float>(around.recent_tangential);
-  sum += weights[5] * static_cast<float>(around.recent_normal);
-  for (int i = 0; i < 4; ++i) sum += weights[static_cast<std::size_t>(i)] * around.logs[i];
+  // Those last that the last vertex's position decides: everything waits for them.
+  const FloatLanes& logs = around.logs;
+  const FloatLanes known_first = weights[6] + weights[4] * around.recent[0] + weights[5] * around.recent[1];
+  const FloatLanes sum = known_first + (weights[0] * logs[0] + weights[1] * logs[1]) +
+                         (weights[2] * logs[2] + weights[3] * logs[3]);
   return __builtin_convertvector(sum, IntLanes);
 }
 

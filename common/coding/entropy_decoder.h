@@ -14,29 +14,28 @@
 
 namespace selvage {
 
-/// The state stays in [2^16, 2^32); the encoder's starts here, so the decoder's ends here.
-inline constexpr std::uint32_t kStateLow = 1u << 16;
+/// The state stays in [2^16, 2^48); the encoder's starts here, so the decoder's ends here.
+inline constexpr std::uint64_t kStateLow = 1u << 16;
+/// So much of the state is moved at once when it leaves that range, and so much is written of the last one.
+inline constexpr int kWordBits = 32, kLastStateBits = 48;
 
 class EntropyDecoder {
  public:
   EntropyDecoder(std::span<const std::byte> bytes, std::span<const StartModel> start)
-      : models_(start),
-        begin_(bytes.data()),
-        at_(bytes.data()),
-        end_(bytes.data() + bytes.size()),
-        words_end_(bytes.empty() ? end_ : end_ - 1) {
-    const std::uint32_t high = word();
-    state_ = high << 16 | word();
+      : models_(start), begin_(bytes.data()), at_(bytes.data()), end_(bytes.data() + bytes.size()) {
+    state_ = take(kLastStateBits / 8);
     if (state_ < kStateLow) overran_ = true, state_ = kStateLow;
   }
 
   unsigned symbol(unsigned model) {
-    const std::uint32_t slot = state_ & (kProbabilityOne - 1);
+    const auto slot = static_cast<std::uint32_t>(state_) & (kProbabilityOne - 1);
     const unsigned symbol = models_.find(model, slot);
     const SymbolRange range = models_.range(model, symbol);
     models_.update(model, symbol);
     state_ = range.frequency * (state_ >> kProbabilityBits) + slot - range.start;
-    renormalise();
+    // Once in some fifteen symbols: a branch costs less than doing without.
+    if (state_ < kStateLow) [[unlikely]]
+      state_ = state_ << kWordBits | take(kWordBits / 8);
     return symbol;
   }
 
@@ -78,28 +77,15 @@ class EntropyDecoder {
   }
 
  private:
-  /// Without a branch on the state, which is as good as random; the branch on what is left is not.
-  void renormalise() {
-    if (at_ >= words_end_) [[unlikely]] {
-      if (state_ < kStateLow) state_ = state_ << 16 | word();
-      return;
-    }
-    const std::uint32_t refilled = state_ << 16 | word_at(at_);
-    at_ += state_ < kStateLow ? 2 : 0;
-    state_ = state_ < kStateLow ? refilled : state_;
-  }
-
-  static std::uint32_t word_at(const std::byte* at) {
-    return std::to_integer<std::uint32_t>(at[0]) | std::to_integer<std::uint32_t>(at[1]) << 8;
-  }
-
-  std::uint32_t word() {
-    if (end_ - at_ < 2) {
+  /// Little-endian.
+  std::uint64_t take(int bytes) {
+    if (end_ - at_ < bytes) {
       overran_ = true;
       return 0;
     }
-    at_ += 2;
-    return word_at(at_ - 2);
+    std::uint64_t value = 0;
+    for (int i = 0; i < bytes; ++i) value |= std::to_integer<std::uint64_t>(*at_++) << (8 * i);
+    return value;
   }
 
   std::uint64_t peek_last_bits() const {
@@ -112,8 +98,7 @@ class EntropyDecoder {
 
   SymbolModels models_;
   const std::byte *begin_, *at_, *end_;
-  const std::byte* words_end_;  ///< no whole word begins here or later
-  std::uint32_t state_ = kStateLow;
+  std::uint64_t state_ = kStateLow;
   std::size_t bits_used_ = 0;  ///< counted from the last byte backwards
   bool overran_ = false;
 };

@@ -26,31 +26,31 @@ EntropyEncoder::Coded EntropyEncoder::finish(std::span<const StartModel> start) 
     ranges.push_back(range.start << 16 | range.frequency);
   }
 
-  std::uint32_t state = kStateLow;
-  std::vector<std::uint16_t> words;  // in the order of coding, which is the reverse of the order of reading
-  words.reserve(ranges.size() / 4 + 2);
+  std::uint64_t state = kStateLow;
+  std::vector<std::uint32_t> words;  // in the order of coding, which is the reverse of the order of reading
+  words.reserve(ranges.size() / 8 + 2);
   std::size_t words_behind_mark = 0;
   for (std::size_t i = ranges.size(); i-- > 0;) {
     if (i + 1 == mark_) words_behind_mark = words.size();
     const std::uint32_t begin = ranges[i] >> 16, frequency = ranges[i] & 0xFFFF;
-    // The largest state that `frequency` still fits below 2^32: one word out is always enough.
-    if ((state >> 17) >= frequency) {
-      words.push_back(static_cast<std::uint16_t>(state));
-      state >>= 16;
+    // From here on the state would not stay below 2^48. One word out is always enough.
+    if ((state >> (kLastStateBits - kProbabilityBits)) >= frequency) {
+      words.push_back(static_cast<std::uint32_t>(state));
+      state >>= kWordBits;
     }
     state = (state / frequency << kProbabilityBits) + state % frequency + begin;
   }
-  words.push_back(static_cast<std::uint16_t>(state));
-  words.push_back(static_cast<std::uint16_t>(state >> 16));
 
   Coded coded;
-  if (mark_ > 0) coded.bytes_to_mark = 2 * (words.size() - words_behind_mark);
   Bytes& out = coded.bytes;
-  out.reserve(2 * words.size() + raw_.size() + 1);
-  for (auto word = words.rbegin(); word != words.rend(); ++word) {
-    out.push_back(static_cast<std::byte>(*word));
-    out.push_back(static_cast<std::byte>(*word >> 8));
-  }
+  const auto put = [&](std::uint64_t value, int bits) {
+    for (int shift = 0; shift < bits; shift += 8) out.push_back(static_cast<std::byte>(value >> shift));
+  };
+  constexpr std::size_t kWordBytes = kWordBits / 8, kStateBytes = kLastStateBits / 8;
+  if (mark_ > 0) coded.bytes_to_mark = kStateBytes + kWordBytes * (words.size() - words_behind_mark);
+  out.reserve(kStateBytes + kWordBytes * words.size() + raw_.size() + 1);
+  put(state, kLastStateBits);
+  for (auto word = words.rbegin(); word != words.rend(); ++word) put(*word, kWordBits);
   if (filled_ > 0) out.push_back(static_cast<std::byte>(buffer_));
   out.insert(out.end(), raw_.rbegin(), raw_.rend());
   return coded;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Range asymmetric numeral systems [Duda 2014], a 32-bit state, 16-bit renormalisation, for symbols; plain
+// Range asymmetric numeral systems [Duda 2014], a 48-bit state, 32-bit renormalisation, for symbols; plain
 // bits for what no model helps with. One span holds both: words from its front, bits from its back.
 //
 //   | words of the state, forwards  --> | <-- bits, backwards |

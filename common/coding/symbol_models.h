@@ -44,28 +44,28 @@ struct SymbolRange {
   std::uint32_t frequency = 0;
 };
 
-/// How a model begins. `cumulative[s]` is where symbol s starts, strictly rising from 0 and below 2^15.
-/// `uses` is the number of symbols that this start is worth: the first update moves by 2^-bit_width(uses).
-/// `uses_limit` is where counting stops, so the last rate is 2^-bit_width(uses_limit).
-struct StartModel {
-  std::uint16_t cumulative[kSymbols];
-  std::uint8_t uses;
-  std::uint8_t uses_limit;
+/// `cumulative[s]` is where symbol s starts, strictly rising from 0 to 2^15, where all end. `uses` is the
+/// number of symbols that this state is worth: the next update moves by 2^-bit_width(uses). `uses_limit` is
+/// where counting stops, so the last rate is 2^-bit_width(uses_limit); at most 255. Aligned for SIMD.
+struct alignas(16) SymbolModel {
+  std::uint16_t cumulative[kSymbols + 1];
+  std::uint16_t uses, uses_limit;
 };
+/// A model before it is used.
+using StartModel = SymbolModel;
 
 /// Equally likely symbols and quick to learn.
 StartModel fresh_model();
 
 class SymbolModels {
  public:
-  explicit SymbolModels(std::span<const StartModel> start);
+  explicit SymbolModels(std::span<const StartModel> start) : models_(start.begin(), start.end()) {}
 
-  std::size_t size() const { return rates_.size(); }
+  std::size_t size() const { return models_.size(); }
 
   SymbolRange range(unsigned model, unsigned symbol) const {
-    const std::uint16_t* c = entries(model) + symbol;
-    // Behind the last symbol lies the next model's first entry, 0, which stands for 2^15 modulo 2^15.
-    return {c[0], static_cast<std::uint32_t>(c[1] - c[0]) & (kProbabilityOne - 1)};
+    const std::uint16_t* c = models_[model].cumulative + symbol;
+    return {c[0], static_cast<std::uint32_t>(c[1] - c[0])};
   }
 
   /// The symbol whose range holds `slot` < kProbabilityOne.
@@ -75,16 +75,7 @@ class SymbolModels {
   void update(unsigned model, unsigned symbol);
 
  private:
-  /// Sixteen bits each: a store to a byte could change anything, as far as the compiler knows.
-  struct Rate {
-    std::uint16_t uses, uses_limit;
-  };
-
-  std::uint16_t* entries(unsigned model) { return &cumulative_[model * kSymbols]; }
-  const std::uint16_t* entries(unsigned model) const { return &cumulative_[model * kSymbols]; }
-
-  std::vector<std::uint16_t> cumulative_;  ///< kSymbols a model, and one 0 behind the last
-  std::vector<Rate> rates_;
+  std::vector<SymbolModel> models_;
 };
 
 /// Where a model moves to when a symbol was seen: all but one unit an entry of probability on that symbol.
@@ -135,7 +126,7 @@ inline constexpr auto kShiftLanes = [] {
 }();
 
 inline unsigned SymbolModels::find(unsigned model, std::uint32_t slot) const {
-  const auto* c = reinterpret_cast<const ShortLanes*>(entries(model));
+  const auto* c = reinterpret_cast<const ShortLanes*>(models_[model].cumulative);
   const __m128i at = _mm_set1_epi16(static_cast<short>(slot));
   const __m128i low = _mm_cmpgt_epi16((__m128i)c[0], at);
   const __m128i high = _mm_cmpgt_epi16((__m128i)c[1], at);
@@ -144,9 +135,9 @@ inline unsigned SymbolModels::find(unsigned model, std::uint32_t slot) const {
 }
 
 inline void SymbolModels::update(unsigned model, unsigned symbol) {
-  Rate& rate = rates_[model];
-  const ShiftLanes& shift = kShiftLanes[kShiftOfUses[rate.uses]];
-  auto* c = reinterpret_cast<ShortLanes*>(entries(model));
+  SymbolModel& moved = models_[model];
+  const ShiftLanes& shift = kShiftLanes[kShiftOfUses[moved.uses]];
+  auto* c = reinterpret_cast<ShortLanes*>(moved.cumulative);
   const auto* target = reinterpret_cast<const ShortLanes*>(kModelTargets.of_symbol[symbol]);
   const __m128i half = _mm_load_si128(reinterpret_cast<const __m128i*>(shift.half));
   const __m128i count = _mm_load_si128(reinterpret_cast<const __m128i*>(shift.count));
@@ -155,29 +146,29 @@ inline void SymbolModels::update(unsigned model, unsigned symbol) {
     const __m128i step = _mm_adds_epi16(_mm_sub_epi16((__m128i)target[i], old), half);
     c[i] = (ShortLanes)_mm_add_epi16(old, _mm_sra_epi16(step, count));
   }
-  rate.uses = static_cast<std::uint16_t>(rate.uses + (rate.uses < rate.uses_limit));
+  moved.uses = static_cast<std::uint16_t>(moved.uses + (moved.uses < moved.uses_limit));
 }
 
 #else
 
 inline unsigned SymbolModels::find(unsigned model, std::uint32_t slot) const {
-  const std::uint16_t* c = entries(model);
+  const std::uint16_t* c = models_[model].cumulative;
   unsigned symbol = 0;
   for (unsigned i = 1; i < kSymbols; ++i) symbol += c[i] <= slot;
   return symbol;
 }
 
 inline void SymbolModels::update(unsigned model, unsigned symbol) {
-  Rate& rate = rates_[model];
-  const int shift = kShiftOfUses[rate.uses];
-  std::uint16_t* c = entries(model);
+  SymbolModel& moved = models_[model];
+  const int shift = kShiftOfUses[moved.uses];
+  std::uint16_t* c = moved.cumulative;
   for (unsigned i = 0; i < kSymbols; ++i) {
     // Saturated at 16 bits signed, as SIMD adds; entries stay strictly rising either way.
     int step = kModelTargets.of_symbol[symbol][i] - c[i] + (1 << (shift - 1));
     if (step > 32767) step = 32767;
     c[i] = static_cast<std::uint16_t>(c[i] + (step >> shift));
   }
-  rate.uses = static_cast<std::uint16_t>(rate.uses + (rate.uses < rate.uses_limit));
+  moved.uses = static_cast<std::uint16_t>(moved.uses + (moved.uses < moved.uses_limit));
 }
 
 #endif

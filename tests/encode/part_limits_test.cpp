@@ -35,7 +35,7 @@ TEST(PartLimits, CountWhatMayCloseBoundaryLoops) {
 
 TEST(PartLimits, RefuseWhatADecoderWouldNotBelieve) {
   // Loose vertices in one place: their number is coded, and no bit of their positions.
-  TriangleSoup soup = shapes::torus(400, 400);
+  TriangleSoup soup = shapes::torus(500, 500);
   std::fill(soup.positions.begin(), soup.positions.end(), Vec3{1, 2, 3});
   const RepairedMesh mesh = repair(soup).value();
   const Partition partition =

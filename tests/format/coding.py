@@ -115,20 +115,19 @@ class Decoder:
 
 
 class Rans(Decoder):
-    """16-bit words from the front, plain bits from the back."""
+    """32-bit words from the front, plain bits from the back."""
 
     def __init__(self, data, bank):
         super().__init__(bank)
         self.data, self.at = data, 0
         self.bits_taken = 0
-        self.state = self.word() << 16
-        self.state |= self.word()
+        self.state = self.take(6)
         require(self.state >= 1 << 16, 'a state too small')
 
-    def word(self):
-        require(self.at + 2 <= len(self.data), 'cut short')
-        self.at += 2
-        return self.data[self.at - 2] | self.data[self.at - 1] << 8
+    def take(self, count):
+        require(self.at + count <= len(self.data), 'cut short')
+        self.at += count
+        return int.from_bytes(self.data[self.at - count:self.at], 'little')
 
     def symbol(self, number):
         model = self.model(number)
@@ -137,7 +136,7 @@ class Rans(Decoder):
         start, share = model.share(symbol)
         self.state = share * (self.state >> 15) + slot - start
         if self.state < 1 << 16:
-            self.state = self.state << 16 | self.word()
+            self.state = self.state << 32 | self.take(4)
         model.update(symbol)
         return symbol
 

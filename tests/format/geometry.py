@@ -17,8 +17,12 @@ def float_bits(value):
     return struct.unpack('<I', struct.pack('<f', value))[0]
 
 
-def log(value):
-    return f32(f32(float_bits(value) - float_bits(1.0)) * 2.0 ** -20)
+def log_bits(value):
+    return float_bits(f32(value + 0.25)) - float_bits(0.25)
+
+
+def from_log(bits):
+    return f32(f32(bits) * 2.0 ** -20)
 
 
 def int_log_of(x):
@@ -46,8 +50,11 @@ def cross(u, v):
     return [f32(f32(u[i - 2] * v[i - 1]) - f32(u[i - 1] * v[i - 2])) for i in range(3)]
 
 
+def size_of(u):
+    return f32(f32(abs(u[0]) + abs(u[2])) + abs(u[1]))
+
+
 def rounded(value):
-    value = max(min(value, 2.0 ** 28), -2.0 ** 28)
     return int(f32(value + (0.5 if value >= 0 else -0.5)))
 
 
@@ -122,13 +129,12 @@ class Surroundings:
         ring += [table.vertex[preceding(corner)] for corner in triangles]
         if not is_open and len(fan) <= 62:
             ring = [table.vertex[following(corner)] for corner in triangles]
-        known = [placed[v] for v in reversed(ring) if v in placed][:16]
+        known = [placed[v] for v in reversed(ring) if v in placed]
         self.has_neighbours = bool(known)
         if not known:
             return
-        base = self.base = known[0].position
         inverse = f32(1 / len(known))
-        sums = [sum(k.position[a] - base[a] for k in known) for a in range(3)]
+        sums = [sum(k.position[a] for k in known) for a in range(3)]
         mean_of_neighbours = scale([f32(s) for s in sums], inverse)
         trend = [0.0] * 3
         normal_error = 0.0
@@ -143,11 +149,11 @@ class Surroundings:
             a, b = table.vertex[following(corner)], table.vertex[preceding(corner)]
             across = table.opposite[corner]
             o = table.vertex[across] if across is not None else None
-            if len(tips) == 8 or not (a in placed and b in placed and o in placed):
+            if not (a in placed and b in placed and o in placed):
                 continue
             pa, pb, po = (placed[v].position for v in (a, b, o))
-            tips.append([pa[i] + pb[i] - po[i] - base[i] for i in range(3)])
-            edges.append([pa[i] - base[i] + pb[i] - base[i] for i in range(3)])
+            tips.append([pa[i] + pb[i] - po[i] for i in range(3)])
+            edges.append([pa[i] + pb[i] for i in range(3)])
             normals.append(cross([float(pb[i] - pa[i]) for i in range(3)], [float(po[i] - pa[i]) for i in range(3)]))
         n = self.parallelograms = len(tips)
         spread = reach = 0.0
@@ -159,22 +165,18 @@ class Surroundings:
             edge = scale([f32(sum(e[i] for e in edges)) for i in range(3)], f32(0.5 * inverse))
             self.mean, self.trend = point, trend
             self.beyond, self.ring = sub(point, edge), sub(mean_of_neighbours, edge)
-            for i in range(3):
-                apart = 0.0
-                for tip in tips:
-                    apart = f32(apart + abs(f32(f32(tip[i]) - point[i])))
-                spread = f32(spread + apart)
-            spread = f32(spread * inverse)
-            reach = f32(f32(abs(self.beyond[0]) + abs(self.beyond[1])) + abs(self.beyond[2]))
+            spread = size_of(sub([float(t) for t in tips[-1]], point))
+            reach = size_of(self.beyond)
             normal = [0.0] * 3
             for one in normals:
                 normal = add(normal, one)
-            self.axis = max(range(3), key=lambda i: (abs(normal[i]), -i))
+            x, y, z = map(abs, normal)
+            self.axis = 0 if x >= y and x > z else 1 if y >= z else 2
             d = self.axis
             r = f32(-1 / normal[d]) if normal[d] else 0.0
             self.slopes = f32(normal[(d + 1) % 3] * r), f32(normal[(d + 2) % 3] * r)
             self.shape = ((min(n, 4) - 1) * 8 + max(3, min(10, len(fan))) - 3) * 2 + is_open
-        self.logs = [log(f32(f32(4 * x) + 1)) for x in (tangent_error, normal_error, spread, reach)]
+        self.logs = [from_log(log_bits(x)) for x in (tangent_error, normal_error, spread, reach)]
 
 
 class Placed:
@@ -188,8 +190,8 @@ class PositionCoder:
         self.placed = {}
         longest = max(high - low for low, high in box)
         triangles = len(table.vertex) // 3
-        start = 32 * int_log_of((4 * longest >> triangles.bit_length() // 2) + 1)
-        self.tangential = self.normal = start
+        start = int_log_of((4 * longest >> triangles.bit_length() // 2) + 1) << 20
+        self.recent = [start, start]
 
     def read(self):
         self.blends = [self.source.symbol(model) for model in (SHAPE, TREND, TANGENT)]
@@ -208,17 +210,17 @@ class PositionCoder:
     def expected(self, around, axis):
         w = self.tables.size[min(around.parallelograms, 3)][axis]
         total = f32(64 * w[6])
-        total = f32(total + f32(w[4] * f32(self.tangential >> 5)))
-        total = f32(total + f32(w[5] * f32(self.normal >> 5)))
-        for weight, value in zip(w, around.logs):
-            total = f32(total + f32(weight * value))
-        return int(total), w
+        for weight, recent in zip(w[4:6], self.recent):
+            total = f32(total + f32(weight * from_log(recent)))
+        parts = [f32(weight * value) for weight, value in zip(w, around.logs)]
+        total = f32(total + f32(parts[0] + parts[1]))
+        return int(f32(total + f32(parts[2] + parts[3]))), w
 
     def coarse(self, around, axis, first, second):
         """The symbol's magnitude, the low bits that it lacks, and its log."""
         expected, w = self.expected(around, axis)
         expected += (w[7] * first if axis > 0 else 0) + (w[8] * second if axis > 1 else 0)
-        size = max(0, min(191, expected >> 8))
+        size = max(0, min(183, expected >> 8))
         low_bits = max(0, size // 8 - 4)
         model = MAGNITUDE + (axis * 2 + (around.parallelograms >= 2)) * 48 + size // 4
         symbol = self.source.symbol(model)
@@ -245,7 +247,7 @@ class PositionCoder:
             predicted = around.mean[i]
             for part, weight in zip((around.beyond, around.ring, around.trend), weights):
                 predicted = f32(predicted + f32(part[i] * weight))
-            position.append(around.base[i] + rounded(predicted))
+            position.append(rounded(predicted))
         d = around.axis
         lean = f32(f32(around.slopes[0] * f32(u)) + f32(around.slopes[1] * f32(w)))
         position[(d + 1) % 3] += u
@@ -253,11 +255,11 @@ class PositionCoder:
         position[d] += v + int(f32(lean * f32(tangent / 4)))
         for value, (low, high) in zip(position, self.box):
             require(low <= value <= high, 'a position outside the box')
-        self.tangential += 2 * int_log(abs(u) + abs(w)) - (self.tangential >> 4)
-        self.normal += 2 * int_log(abs(v)) - (self.normal >> 4)
+        sizes = float(min(abs(u) + abs(w), 1 << 24)), float(min(abs(v), 1 << 24))
+        self.recent = [r + ((log_bits(size) - r) >> 4) for r, size in zip(self.recent, sizes)]
         error = [0.0] * 3
         if around.parallelograms:
-            error = sub([f32(position[i] - around.base[i]) for i in range(3)], around.mean)
+            error = sub([float(p) for p in position], around.mean)
         return Placed(position, min(abs(u) + abs(w), 1 << 24), f32(min(abs(v), 1 << 24)), error)
 
 
