@@ -23,13 +23,14 @@ std::uint32_t region_count_of(const std::string& text) {
 void add_level_options(CLI::App& command, std::uint32_t& levels, std::vector<double>& ratios,
                        std::vector<double>& errors) {
   constexpr const char* kGroup = "Levels of detail";
-  auto* by_count = command
-                       .add_option("--levels", levels,
-                                   "levels of detail, the finest included: 2 adds one of an eighth of the "
-                                   "triangles, 3 a quarter and a sixteenth, more halve each time; 1: none")
-                       ->check(CLI::Range(1, 16))
-                       ->capture_default_str()
-                       ->group(kGroup);
+  auto* by_count =
+      command
+          .add_option("--levels", levels,
+                      "levels of detail, the finest included: 2 adds one of at most an eighth of the "
+                      "triangles, 3 a quarter and a sixteenth, more halve each time; 1: none")
+          ->check(CLI::Range(1, 16))
+          ->capture_default_str()
+          ->group(kGroup);
   auto* by_ratio = command
                        .add_option("--level-ratios", ratios,
                                    "instead: shares of the triangles, falling, for instance 0.25,0.05")

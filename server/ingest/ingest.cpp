@@ -19,6 +19,12 @@
 namespace selvage {
 namespace {
 
+/// The directory's entries for a coarse level are the rest of a quarter.
+constexpr double kMostBytesOfTwo = 0.24;
+/// Fewer triangles take more bytes each.
+constexpr double kSpareBytes = 0.9;
+constexpr int kMostPasses = 4;
+
 /// Announces stages, takes their times and remembers a wish to cancel.
 class StageClock {
  public:
@@ -118,6 +124,36 @@ LevelledMesh make_levels(const RepairedMesh& mesh, const Partition& partition, c
                            targets, parallel, progress);
 }
 
+/// Bytes of each level's own parts; of the finest, with joins.
+std::vector<double> bytes_by_level(const EncodedModel& model) {
+  std::vector<double> bytes(kMaxLevels, 0);
+  auto part = model.parts.begin();
+  for (const RegionEntry& region : model.directory.regions) {
+    for (std::size_t level = region.levels.size(); level-- > 0;) {
+      if (!region.levels[level].is_repeat) bytes[level] += static_cast<double>((part++)->size());
+    }
+    if (region.bundle_triangles > 0) bytes[0] += static_cast<double>((part++)->size());
+  }
+  return bytes;
+}
+
+/// Asks for fewer triangles where a level took more bytes than it may. False if none did, or none has fewer
+/// to give: what keeps its collapses from the number asked for is not that number.
+bool lower_ratios(const EncodedModel& model, std::uint32_t triangle_count, std::vector<LevelGoal>& goals) {
+  const std::vector<double> bytes = bytes_by_level(model);
+  bool is_lower = false;
+  for (std::size_t i = 0; i < goals.size(); ++i) {
+    const double most = goals[i].most_bytes * bytes[0];
+    double triangles = 0;
+    for (const RegionEntry& region : model.directory.regions)
+      triangles += i + 1 < region.levels.size() ? region.levels[i + 1].triangles : 0;
+    if (bytes[i + 1] <= most || triangles > goals[i].ratio * triangle_count) continue;
+    goals[i].ratio *= kSpareBytes * most / bytes[i + 1];
+    is_lower = true;
+  }
+  return is_lower;
+}
+
 /// What readers of the directory refuse.
 Result<void> check_text(const std::string& what, const std::string& text) {
   if (text.size() <= kMaxDirectoryText) return {};
@@ -163,6 +199,7 @@ std::vector<LevelGoal> usual_levels(unsigned count) {
   const double step = count == 2 ? 0.125 : count == 3 ? 0.25 : 0.5;
   std::vector<LevelGoal> goals;
   for (unsigned level = 1; level < count; ++level) goals.push_back({.ratio = std::pow(step, level)});
+  if (count == 2) goals.front().most_bytes = kMostBytesOfTwo;
   return goals;
 }
 
@@ -202,27 +239,33 @@ Result<IngestedModel> ingest(const TriangleSoup& soup, const IngestOptions& opti
     return make_partition(mesh.table, segmentation.region_of_vertex, segmentation.region_count);
   });
   const Grid grid = make_grid(mesh.positions, options.bits);
-  const LevelledMesh levels = clock.run("simplify", [&] {
-    return make_levels(mesh, partition, grid, options.levels, parallel, [&](double done) {
-      clock.report("simplify", done);
-      return !clock.is_cancelled();
+  // Once, but for levels that then turn out to take too many bytes.
+  std::vector<LevelGoal> goals = options.levels;
+  Result<EncodedModel> encoded;
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    const LevelledMesh levels = clock.run("simplify", [&] {
+      return make_levels(mesh, partition, grid, goals, parallel, [&](double done) {
+        clock.report("simplify", done);
+        return !clock.is_cancelled();
+      });
     });
-  });
-  if (clock.is_cancelled()) return cancelled();
-  const double parts = (2.0 + static_cast<double>(options.levels.size())) * (partition.region_count + 1);
-  std::atomic<std::uint32_t> done = 0;
-  auto encoded = clock.run("encode", [&] {
-    const ModelSource source{mesh.table,
-                             mesh.positions,
-                             mesh.source_of_vertex,
-                             mesh.is_turned,
-                             partition,
-                             options.lossless,
-                             options.levels.empty() ? nullptr : &levels};
-    return encode_model(source, grid, parallel, [&] { clock.report("encode", ++done / parts); });
-  });
-  if (clock.is_cancelled()) return cancelled();
-  if (!encoded) return forward_error(encoded);
+    if (clock.is_cancelled()) return cancelled();
+    const double parts = (2.0 + static_cast<double>(goals.size())) * (partition.region_count + 1);
+    std::atomic<std::uint32_t> done = 0;
+    encoded = clock.run("encode", [&] {
+      const ModelSource source{mesh.table,
+                               mesh.positions,
+                               mesh.source_of_vertex,
+                               mesh.is_turned,
+                               partition,
+                               options.lossless,
+                               goals.empty() ? nullptr : &levels};
+      return encode_model(source, grid, parallel, [&] { clock.report("encode", ++done / parts); });
+    });
+    if (clock.is_cancelled()) return cancelled();
+    if (!encoded) return forward_error(encoded);
+    if (!lower_ratios(*encoded, mesh.table.triangle_count(), goals)) break;
+  }
 
   Directory& directory = encoded->directory;
   directory.name = options.name;

@@ -24,10 +24,13 @@ namespace selvage {
 struct LevelGoal {
   double ratio = 0;                                        ///< of the model's triangles
   double error = std::numeric_limits<double>::infinity();  ///< of the collapses, model units
+  /// Over the bytes of the finest level and the joins: a level that takes more gets fewer triangles.
+  double most_bytes = std::numeric_limits<double>::infinity();
 };
 
 /// The goals that make `count` levels of detail, the finest included: at an eighth of the triangles for two,
-/// a quarter and a sixteenth for three, each at half of the one before for more.
+/// a quarter and a sixteenth for three, each at half of the one before for more. The second of two takes at
+/// most a quarter of the bytes, give or take the directory's.
 std::vector<LevelGoal> usual_levels(unsigned count);
 
 struct IngestOptions {

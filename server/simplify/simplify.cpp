@@ -109,7 +109,7 @@ Run::Run(const SimplifyInput& input, const SimplifyOptions& options, std::uint32
       mesh_(input.mesh),
       points_(input.mesh.triangle_count(), input.positions),
       bridges_(input.mesh, input.region_of_vertex),
-      flips_(input.mesh, input.positions, input.region_of_vertex),
+      flips_(input.mesh, input.positions, input.region_of_vertex, mean_area_),
       queue_(input.mesh.vertex_count()),
       target_of_vertex_(input.mesh.vertex_count(), kNone),
       state_of_vertex_(input.mesh.vertex_count(), State::Dirty),

@@ -179,6 +179,34 @@ TEST(Levels, EncodeTheSameOnAnyNumberOfThreads) {
   EXPECT_EQ(alone->pack, together->pack);
 }
 
+/// Of the parts of the second level, over those of the first and the joins.
+double share_of_bytes(const IngestedModel& model) {
+  const auto pack = Pack::from_bytes(model.pack).value();
+  double fine = 0, coarse = 0;
+  for (const RegionEntry& region : pack->directory().regions) {
+    fine += static_cast<double>(region.bundle.size);
+    if (region.levels.empty()) continue;
+    fine += static_cast<double>(region.levels[0].part.size);
+    if (region.levels.size() > 1 && !region.levels[1].is_repeat)
+      coarse += static_cast<double>(region.levels[1].part.size);
+  }
+  return coarse / fine;
+}
+
+// A range map: its regular grid costs next to nothing, and is lost by collapsing.
+TEST(Levels, OfTwoTheSecondTakesAQuarterOfTheBytesAtMost) {
+  TriangleSoup soup = shapes::grid(90, 90);
+  std::mt19937 random(1);
+  for (Vec3& p : soup.positions) p.z = 6 * std::sin(p.x / 12) + 0.02 * (random() % 8);
+  const auto go_on = [](const std::string&, double) { return true; };
+  const auto usual = ingest(soup, {}, serial_for(), go_on);
+  const auto asked = ingest(soup, {.levels = {{.ratio = 0.125}}}, serial_for(), go_on);
+  ASSERT_TRUE(usual && asked);
+  EXPECT_LE(share_of_bytes(*usual), 0.25);
+  EXPECT_GT(share_of_bytes(*usual), 0.15);
+  EXPECT_GT(share_of_bytes(*asked), 0.26) << "who names a ratio gets it";
+}
+
 TEST(Levels, RefusesGoalsThatDoNotGetCoarser) {
   const auto go_on = [](const std::string&, double) { return true; };
   for (const std::vector<LevelGoal>& goals : {std::vector<LevelGoal>{{.ratio = 1.0}},
