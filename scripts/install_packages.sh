@@ -41,6 +41,7 @@ find_root() {
 }
 
 mapfile -t packages < <(listed_packages)
+((${#packages[@]} > 0)) || die "${lists[*]} cannot be read, or names no package"
 
 if ! command -v dpkg-query > /dev/null || ! command -v apt-get > /dev/null; then
   die "this is not a Debian system, so packages cannot be installed for you. Selvage is built on Debian 12;

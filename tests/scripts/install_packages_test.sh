@@ -57,4 +57,8 @@ install_with one two
 claim 'a failing apt fails' test "$status" = 1
 claim 'and says which step' grep -q 'apt-get update failed' <<< "$output"
 
+rm -- "$sandbox/a place/packages.txt"
+install_with one
+claim 'a list that is not there is not an empty one' test "$status" = 1
+
 ((failures == 0)) || { printf '%s\n' "$output"; exit 1; }
