@@ -106,6 +106,8 @@ struct Costs {
     if (model < region_model::kMagnitude + 4 * region_model::kMagnitudes) return "second axis";
     if (model < region_model::kFields) return "normal axis";
     if (model == region_model::kExcess) return "escapes";
+    if (model >= region_model::kListCount) return "value lists";
+    if (model == region_model::kIsListed) return "region headers";
     return model >= region_model::kTurned ? "turned, anchors" : "region headers";
   }
 

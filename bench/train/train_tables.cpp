@@ -2,7 +2,8 @@
 //
 // Regenerates the codec's constants:
 //   build/release/bin/train_tables FOLDER... --exclude REGEX > common/codec/trained_tables.inc
-// The same folders give the same file. Archives among them have to be unpacked first.
+// The same folders and the same tables before give the same file: where regions take lists of values depends
+// on the latter, so new kinds of symbols want two rounds. Archives among them have to be unpacked first.
 #include <cstdio>
 #include <string>
 #include <vector>

@@ -18,24 +18,56 @@ namespace {
 
 using Sequence = std::vector<Token>;
 
-/// A region as the decoder sees it, and the symbols of its connectivity.
+/// A region as the decoder sees it, and what is taken as the shipped tables had it coded.
 struct TrainingRegion {
   RegionMesh mesh;
   GridBox box;
-  Sequence connectivity;
+  Sequence symbols;
 };
 
 struct TrainingSet {
   std::vector<TrainingRegion> regions;
+  std::vector<Sequence> exact;  ///< of the same regions in bit-exact models, what others lack
   std::vector<Sequence> bundles;
 };
 
-bool is_connectivity(const Token& token) {
+bool is_of_lists(const Token& token) { return token.model >= region_model::kIsListed; }
+
+/// Connectivity, and lists of values where they were the shorter way.
+bool is_taken_as_coded(const Token& token) {
   return token.model < region_model::kMagnitude ||
-         (token.model >= region_model::kExtraSymbols && token.model <= region_model::kIsClosed);
+         (token.model >= region_model::kExtraSymbols && token.model <= region_model::kIsClosed) ||
+         is_of_lists(token);
 }
 
-/// Every model at two of the four usual numbers of bits and three of five sizes of region, in turn.
+bool is_of_floats(const Token& token) {
+  return is_of_lists(token) ||
+         (token.model >= region_model::kDigits && token.model <= region_model::kAfterExact);
+}
+
+/// By way of memory: g++ 12 loses the rounding of neighbouring values when it vectorises.
+double as_float(double value) {
+  volatile float rounded = static_cast<float>(value);
+  return rounded;
+}
+
+/// The symbols of one partition's floats, region by region.
+void add_exact_parts(const RepairedMesh& mesh, const Partition& partition, TrainingSet& set) {
+  std::vector<Vec3> positions = mesh.positions;
+  for (Vec3& p : positions) p = {as_float(p.x), as_float(p.y), as_float(p.z)};
+  const ModelSource source{mesh.table, positions, mesh.source_of_vertex, mesh.is_turned, partition, true};
+  const EncodeHooks hooks{shipped_tables(), [&](const PartId& id, std::span<const Token> tokens, double) {
+                            if (id.kind == PartKind::Bundle) return;
+                            set.exact.emplace_back();
+                            std::copy_if(tokens.begin(), tokens.end(), std::back_inserter(set.exact.back()),
+                                         is_of_floats);
+                          }};
+  (void)encode_model(
+      source, make_grid(positions, 14), serial_for(), [] {}, hooks);
+}
+
+/// Every model at two of the four usual numbers of bits and three of five sizes of region, in turn, and in
+/// one of them bit for bit.
 TrainingSet make_training_set(const std::vector<const Model*>& models) {
   constexpr int kBits[] = {12, 14, 11, 16};
   constexpr std::uint32_t kSizes[] = {2000, 500, 5000, 1000, 20000};
@@ -46,14 +78,15 @@ TrainingSet make_training_set(const std::vector<const Model*>& models) {
       const Partition partition = voronoi_partition(mesh, kSizes[(i + k) % 5]);
       const Grid grid = make_grid(mesh.positions, kBits[(i + k) % 4]);
       const ModelSource source{mesh.table, mesh.positions, mesh.source_of_vertex, mesh.is_turned, partition};
-      std::vector<Sequence> connectivity(partition.region_count + 1);
+      if (k == 0) add_exact_parts(mesh, partition, set);
+      std::vector<Sequence> symbols(partition.region_count + 1);
       const CodecTables& tables = shipped_tables();
       const EncodeHooks hooks{tables, [&](const PartId& id, std::span<const Token> tokens, double) {
                                 if (id.kind == PartKind::Bundle) {
                                   set.bundles.emplace_back(tokens.begin(), tokens.end());
                                 } else {
                                   std::copy_if(tokens.begin(), tokens.end(),
-                                               std::back_inserter(connectivity[id.region]), is_connectivity);
+                                               std::back_inserter(symbols[id.region]), is_taken_as_coded);
                                 }
                               }};
       const EncodedModel encoded = encode_model(
@@ -68,8 +101,7 @@ TrainingSet make_training_set(const std::vector<const Model*>& models) {
           if (!region)
             std::fprintf(stderr, "%s: %s\n", models[i]->name.c_str(), region.error().message.c_str()),
                 std::abort();
-          set.regions.push_back(
-              {std::move(*region), {entry.box_min, entry.box_max}, std::move(connectivity[id])});
+          set.regions.push_back({std::move(*region), {entry.box_min, entry.box_max}, std::move(symbols[id])});
         }
         if (entry.bundle_triangles > 0) ++part;
       }
@@ -290,8 +322,10 @@ FittedBank fit_bank(const std::vector<Sequence>& parts, unsigned models,
 
 unsigned region_symbols(unsigned model) {
   if (model < region_model::kMagnitude) return 5;
-  if (model == region_model::kIsClosed || model == region_model::kTurned || model == region_model::kTurned1)
+  if (model == region_model::kIsClosed || model == region_model::kTurned || model == region_model::kTurned1 ||
+      model == region_model::kIsListed)
     return 2;
+  if (model >= region_model::kListSigns && model < region_model::kListPick) return 4;
   return kSymbols;
 }
 
@@ -314,10 +348,11 @@ TrainedTables train(const std::vector<const Model*>& models) {
     if (region.mesh.table.triangle_count() == 0) continue;
     encode_positions(FanTable(region.mesh.table), region.mesh.positions, region.box, tables.view(), out);
     encode_turned_and_anchors(region.mesh, out);
-    Sequence sequence = region.connectivity;
+    Sequence sequence = region.symbols;
     sequence.insert(sequence.end(), out.tokens().begin(), out.tokens().end());
     parts.push_back(std::move(sequence));
   }
+  parts.insert(parts.end(), set.exact.begin(), set.exact.end());
   FittedBank region = fit_bank(parts, region_model::kCount, region_symbols);
   FittedBank bundle = fit_bank(set.bundles, bundle_model::kCount, bundle_symbols);
   tables.packed_region = std::move(region.packed), tables.region_is_seen = std::move(region.is_seen);

@@ -7,13 +7,6 @@
 namespace selvage {
 namespace {
 
-std::uint64_t decode_uniform(EntropyDecoder& in, std::uint64_t count) {
-  const int length = static_cast<int>(std::bit_width(count)) - 1;
-  const std::uint64_t short_ones = (std::uint64_t{2} << length) - count;
-  const std::uint64_t value = in.bits(length);
-  return value < short_ones ? value : (value << 1 | in.bits(1)) - short_ones;
-}
-
 // In step with encode_one of server/encode/exact_encoder.cpp.
 bool decode_one(EntropyDecoder& in, const Decimals& decimals, ExactAxis& axis, const Grid& grid, int which,
                 std::int32_t coordinate, float& value) {
@@ -29,12 +22,12 @@ bool decode_one(EntropyDecoder& in, const Decimals& decimals, ExactAxis& axis, c
     case ExactSymbol::Decimal: {
       if (decimals.digits == 0) return false;
       const RankCell cell = decimal_cell(decimals, grid, which, coordinate);
-      value = decimals.value(cell.first + static_cast<std::int64_t>(decode_uniform(in, cell.count)));
+      value = decimals.value(cell.first + static_cast<std::int64_t>(in.uniform(cell.count)));
       break;
     }
     case ExactSymbol::Float: {
       const RankCell cell = float_cell(grid, which, coordinate);
-      const auto place = static_cast<std::int64_t>(decode_uniform(in, cell.count));
+      const auto place = static_cast<std::int64_t>(in.uniform(cell.count));
       value = float_of_rank(static_cast<std::uint32_t>(cell.first + place));
       break;
     }

@@ -8,6 +8,7 @@
 #include "client/decode/boundary_map_decoder.h"
 #include "client/decode/connectivity_decoder.h"
 #include "client/decode/exact_decoder.h"
+#include "client/decode/list_decoder.h"
 #include "common/codec/region_format.h"
 #include "common/coding/entropy_decoder.h"
 
@@ -35,7 +36,7 @@ std::uint64_t finest_boundary(const CoarseLevel& coarse) {
 std::uint64_t decode_memory_bound(const DecodeLimits& expected) {
   const std::uint64_t boundary = expected.coarse ? finest_boundary(*expected.coarse) : 0;
   const std::uint64_t exact = expected.exact ? expected.vertices : 0;
-  return 65536 + 448 * std::uint64_t{expected.triangles} + 128 * std::uint64_t{expected.vertices} +
+  return 65536 + 448 * std::uint64_t{expected.triangles} + 192 * std::uint64_t{expected.vertices} +
          192 * exact + 16 * boundary;
 }
 
@@ -57,10 +58,17 @@ Result<RegionMesh> RegionDecoder::decode(std::span<const std::byte> bytes, const
   if (std::max(expected.triangles, expected.vertices) > most) return mismatch();
   if (expected.coarse && finest_boundary(*expected.coarse) > most) return mismatch();
   RegionMesh mesh;
+  bool is_listed = false;
   if (expected.triangles > 0) {
     if (auto ok = decode_connectivity(in, expected.triangles, table_); !ok) return forward_error(ok);
     if (table_.triangle_count() != expected.triangles) return mismatch();
-    auto ok = decode_positions(in, box, expected.vertices, tables, table_, memory_, mesh);
+    const unsigned way = in.symbol(region_model::kIsListed);
+    if (way > 1) return fail(ErrorCode::BadStream, "region part: positions in an unknown way");
+    is_listed = way == 1;
+    const Grid* exact = expected.exact ? &*expected.exact : nullptr;
+    auto ok = is_listed
+                  ? decode_listed_positions(in, box, expected.vertices, exact, table_, memory_.order, mesh)
+                  : decode_positions(in, box, expected.vertices, tables, table_, memory_, mesh);
     if (!ok) return forward_error(ok);
   } else {
     if (!decode_loose_vertices(in, expected.vertices, mesh)) return mismatch();
@@ -68,7 +76,7 @@ Result<RegionMesh> RegionDecoder::decode(std::span<const std::byte> bytes, const
   }
   if (header->has_exact != expected.exact.has_value() || header->is_coarse != expected.coarse.has_value())
     return mismatch();
-  if (expected.exact) {
+  if (expected.exact && !is_listed) {
     auto exact = decode_exact(mesh.positions, *expected.exact, in);
     if (!exact) return forward_error(exact);
     mesh.exact = std::move(*exact);

@@ -49,7 +49,15 @@ enum Field : unsigned {
   kMapLead,    ///< boundary indices before the first whole run
   kMapRun,     ///< boundary indices that a vertex of a coarser level stands for, less one
   kMapExcess,  ///< bit lengths: what a run exceeds its largest plain symbol by
-  kCount
+  kIsListed,   ///< 1 if positions are places in lists of values
+  kListCount,  ///< bit lengths, as the next two: values in a list
+  kListGap,    ///< between grid coordinates, or ranks of decimals
+  kListFloatGap,
+  kListSigns,  ///< by axis and what is known of the signs, see SignContext
+  kListPick =
+      kListSigns + 24,  ///< by which places around are equal, and whether these surroundings are known
+  kListStep = kListPick + 2 * 8,  ///< bit lengths, two: without and with a parallelogram
+  kCount = kListStep + 2
 };
 }  // namespace region_model
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The region part's layout (docs/FORMAT.md, "Region part"): one byte of version and flags, then everything
-// else in one entropy-coded span: connectivity, blends, positions, the floats behind them,
-// turned bits, anchors.
+// else in one entropy-coded span: connectivity, blends, positions and the floats behind them, or both in
+// lists of values, turned bits, anchors.
 //
 //   u8      low 4 bits kRegionPartVersion, then has_turned, has_anchors, has_exact, is_coarse
 //   bytes   entropy coded to the end of the part

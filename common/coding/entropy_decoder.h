@@ -59,6 +59,14 @@ class EntropyDecoder {
     return value;
   }
 
+  /// Below `count` <= 2^32.
+  std::uint64_t uniform(std::uint64_t count) {
+    const int length = static_cast<int>(std::bit_width(count)) - 1;
+    const std::uint64_t short_ones = (std::uint64_t{2} << length) - count;
+    const std::uint64_t value = bits(length);
+    return value < short_ones ? value : (value << 1 | bits(1)) - short_ones;
+  }
+
   std::uint32_t number(unsigned length_model) {
     int length = static_cast<int>(symbol(length_model));
     if (length == kLongNumber) length += static_cast<int>(bits(kLongNumberBits));

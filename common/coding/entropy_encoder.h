@@ -9,6 +9,7 @@
 // entropy_decoder.h.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -28,6 +29,16 @@ class EntropyEncoder {
     filled_ += count;
     bit_count_ += static_cast<std::uint64_t>(count);
     for (; filled_ >= 8; filled_ -= 8, buffer_ >>= 8) raw_.push_back(static_cast<std::byte>(buffer_));
+  }
+
+  /// `value` < `count` <= 2^32, all equally likely: one of two lengths where `count` is no power of two.
+  void uniform(std::uint64_t value, std::uint64_t count) {
+    const int length = static_cast<int>(std::bit_width(count)) - 1;
+    const std::uint64_t short_ones = (std::uint64_t{2} << length) - count;
+    if (value < short_ones) return bits(static_cast<std::uint32_t>(value), length);
+    const std::uint64_t shifted = value + short_ones;
+    bits(static_cast<std::uint32_t>(shifted >> 1), length);
+    bits(static_cast<std::uint32_t>(shifted & 1), 1);
   }
 
   /// Any 32-bit number: its bit length through the model (15 and more escape), the rest as bits. Cheap for

@@ -10,16 +10,6 @@
 namespace selvage {
 namespace {
 
-/// `value` < count, in the shorter of two lengths where count is no power of two.
-void encode_uniform(EntropyEncoder& out, std::uint64_t value, std::uint64_t count) {
-  const int length = static_cast<int>(std::bit_width(count)) - 1;
-  const std::uint64_t short_ones = (std::uint64_t{2} << length) - count;
-  if (value < short_ones) return out.bits(static_cast<std::uint32_t>(value), length);
-  const std::uint64_t shifted = value + short_ones;
-  out.bits(static_cast<std::uint32_t>(shifted >> 1), length);
-  out.bits(static_cast<std::uint32_t>(shifted & 1), 1);
-}
-
 std::uint32_t bits_of(float value) { return std::bit_cast<std::uint32_t>(value); }
 
 /// The floats of one region.
@@ -85,14 +75,14 @@ void encode_one(EntropyEncoder& out, const Decimals& decimals, ExactAxis& axis, 
     const RankCell cell = decimal_cell(decimals, grid, which, coordinate);
     if (const std::uint64_t place = decimal_place(decimals, cell, value); place < cell.count) {
       put(ExactSymbol::Decimal);
-      return encode_uniform(out, place, cell.count);
+      return out.uniform(place, cell.count);
     }
   }
   const RankCell cell = float_cell(grid, which, coordinate);
   const auto place = static_cast<std::uint64_t>(std::int64_t{float_rank(value)} - cell.first);
   if (place < cell.count) {
     put(ExactSymbol::Float);
-    return encode_uniform(out, place, cell.count);
+    return out.uniform(place, cell.count);
   }
   put(ExactSymbol::Bits);
   out.bits(bits_of(value), 32);

@@ -10,6 +10,7 @@
 #include "server/encode/boundary_map_encoder.h"
 #include "server/encode/connectivity_encoder.h"
 #include "server/encode/exact_encoder.h"
+#include "server/encode/list_encoder.h"
 
 namespace selvage {
 namespace {
@@ -70,6 +71,37 @@ std::vector<VertexId> map_boundary(const CoarseSource& coarse, std::span<const V
   return mapped;
 }
 
+template <class T>
+std::vector<T> gathered(std::span<const T> values, std::span<const VertexId> order) {
+  std::vector<T> result;
+  result.reserve(order.size());
+  for (VertexId v : order) result.push_back(values[v]);
+  return result;
+}
+
+/// Whether the grid points are those of the floats, and so need no coding of their own.
+bool follow(const Grid& grid, std::span<const GridPoint> positions, std::span<const ExactPosition> exact) {
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    if (!(grid.quantise({exact[v][0], exact[v][1], exact[v][2]}) == positions[v])) return false;
+  }
+  return true;
+}
+
+/// Replaces the positions, and floats, that were coded into `out` since `before` by places in lists if that
+/// takes fewer bytes.
+void try_lists(const FanTable& table, std::span<const GridPoint> positions,
+               std::span<const ExactPosition> exact, const CodecTables& tables, EntropyEncoder before,
+               EntropyEncoder& out) {
+  before.symbol(region_model::kIsListed, 1);
+  if (exact.empty()) {
+    encode_listed_positions(table, positions, before);
+  } else {
+    encode_listed_floats(table, exact, before);
+  }
+  const auto size_of = [&](const EntropyEncoder& coded) { return coded.finish(tables.region).bytes.size(); };
+  if (size_of(before) < size_of(out)) out = std::move(before);
+}
+
 GridBox box_of(std::span<const GridPoint> positions) {
   GridBox box{positions.front(), positions.front()};
   for (const GridPoint& p : positions) {
@@ -93,15 +125,25 @@ EncodedRegion encode_region(const RegionSource& source, const CodecTables& table
   if (source.table.triangle_count() > 0) {
     EncodedConnectivity connectivity = encode_connectivity(source.table, out);
     out.mark();
+    const EntropyEncoder before_positions = out;
     const std::vector<VertexId> source_of_grown = map_vertices(connectivity, source.table);
     std::vector<GridPoint> positions;
     for (VertexId v : source_of_grown)
       positions.push_back(v == kNone ? GridPoint{} : drop_bits(source.positions[v], dropped_bits));
+    out.symbol(region_model::kIsListed, 0);
     const std::vector<VertexId> order = encode_positions(connectivity.table, positions, box, tables, out);
     for (VertexId grown : order) encoded.source_of_vertex.push_back(source_of_grown[grown]);
+    mesh.positions = gathered<GridPoint>(positions, order);
     mesh.is_turned = map_turned(connectivity, source.is_turned);
     mesh.table = renumbered(connectivity.table, order);
     mesh.loops = find_boundary_loops(mesh.table);
+    if (!source.exact.empty()) {
+      mesh.exact = gathered<ExactPosition>(source.exact, encoded.source_of_vertex);
+      encode_exact(mesh.positions, mesh.exact, source.grid, out);
+    }
+    if (source.exact.empty() ? may_be_listed(mesh.table, mesh.positions)
+                             : follow(source.grid, mesh.positions, mesh.exact))
+      try_lists(connectivity.table, mesh.positions, mesh.exact, tables, before_positions, out);
   } else {
     out.number(region_model::kLooseCount, source.table.vertex_count());
     out.mark();
@@ -109,16 +151,10 @@ EncodedRegion encode_region(const RegionSource& source, const CodecTables& table
     mesh.table = source.table;
     mesh.loops = loose_loops(source.table.vertex_count());
     encoded.source_of_vertex = mesh.loops.vertices;
+    mesh.exact = source.exact;
+    if (!mesh.exact.empty()) encode_exact(source.positions, mesh.exact, source.grid, out);
   }
   mesh.anchors = map_anchors(mesh, encoded.source_of_vertex, source.weld_groups);
-  if (!source.exact.empty()) {
-    std::vector<GridPoint> positions;
-    for (VertexId v : encoded.source_of_vertex) {
-      positions.push_back(source.positions[v]);
-      mesh.exact.push_back(source.exact[v]);
-    }
-    encode_exact(positions, mesh.exact, source.grid, out);
-  }
   if (source.coarse) {
     mesh.vertex_of_boundary = map_boundary(*source.coarse, encoded.source_of_vertex);
     encode_boundary_map(mesh, source.coarse->finest_loop_lengths, out);

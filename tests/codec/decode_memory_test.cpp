@@ -108,6 +108,15 @@ TEST(DecodeMemory, OfLargeRegionsStaysWithinTheBound) {
     expect_bounded_when_large(soup);
 }
 
+TEST(DecodeMemory, OfListsStaysWithinTheBound) {
+  TriangleSoup steps = shapes::grid(120, 120);
+  for (Vec3& p : steps.positions) p.z = static_cast<int>(p.x / 3) % 7 * (static_cast<int>(p.y / 4) % 3);
+  TriangleSoup dust;
+  for (int i = 0; i < 5000; ++i)
+    shapes::append(dust, shapes::translated(shapes::triangle(), {double(i % 70), double(i / 70), 0}));
+  for (const TriangleSoup& soup : {steps, dust}) expect_bounded_when_large(soup);
+}
+
 TEST(DecodeMemory, OfLargeBundlesStaysWithinTheBound) {
   const TriangleSoup soup = shapes::torus(100, 300);
   for (const double cell : {0.2, 0.6, 2.0}) {

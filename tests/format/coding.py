@@ -149,6 +149,12 @@ class Rans(Decoder):
             self.bits_taken += 1
         return value
 
+    def uniform(self, count):
+        length = count.bit_length() - 1
+        short = (1 << (length + 1)) - count
+        x = self.bits(length)
+        return x if x < short else 2 * x + self.bits(1) - short
+
     def finish(self):
         require(self.state == 1 << 16, 'a state left over')
         require(self.bits(-self.bits_taken % 8) == 0, 'bits left over')

@@ -6,7 +6,9 @@ import struct
 from coding import Rans, require
 from connectivity import CornerTable, read_connectivity
 from geometry import PositionCoder, boundary_loops, f32, read_offset
+from lists import PlaceReader, read_ascending, read_float_magnitudes, read_lists, LIST_GAP
 
+IS_LISTED = 819
 TURNED, ANCHOR_COUNT, ANCHOR_GAP, GROUP_STEP, LOOSE_COUNT = 799, 801, 802, 803, 804
 DIGITS, PLACES, EXACT, EXACT_NEW = 805, 806, 807, 811
 MAP_LOOP, MAP_LEAD, MAP_RUN, MAP_EXCESS = 815, 816, 817, 818
@@ -14,12 +16,25 @@ LARGEST_FLOAT = struct.unpack('<f', b'\xff\xff\x7f\x7f')[0]
 
 
 def float_rank(value):
-    bits = struct.unpack('<I', struct.pack('<f', value))[0]
+    bits = float_bits(value)
     return bits ^ 0xffffffff if bits >> 31 else bits | 1 << 31
 
 
 def bits_of_rank(rank):
     return rank ^ 1 << 31 if rank >> 31 else rank ^ 0xffffffff
+
+
+def float_bits(value):
+    return struct.unpack('<I', struct.pack('<f', value))[0]
+
+
+def decimal_value(rank, digits, places):
+    """As a double."""
+    end, e, k = 10 ** digits, places, abs(rank)
+    while k >= end:
+        e, k = e - 1, k - (end - end // 10)
+    value = k / 10.0 ** e if e >= 0 else k * 10.0 ** -e
+    return -value if rank < 0 else value
 
 
 class FloatReader:
@@ -43,21 +58,15 @@ class FloatReader:
         elif symbol == 1:
             require(self.digits, 'no decimals')
             first, last = self.decimal_rank(low), self.decimal_rank(high)
-            seen[coordinate] = self.decimal_bits(first + self.place(last - first + 1))
+            seen[coordinate] = self.decimal_bits(first + self.source.uniform(last - first + 1))
         elif symbol == 2:
             first, last = (float_rank(f32(max(-LARGEST_FLOAT, min(LARGEST_FLOAT, x)))) for x in (low, high))
-            seen[coordinate] = bits_of_rank(first - 2 + self.place(last - first + 5))
+            seen[coordinate] = bits_of_rank(first - 2 + self.source.uniform(last - first + 5))
         else:
             require(symbol == 3, 'an unknown symbol')
             seen[coordinate] = self.source.bits(32)
         require(seen[coordinate] >> 23 & 255 != 255, 'no finite float')
         return seen[coordinate]
-
-    def place(self, count):
-        length = count.bit_length() - 1
-        short = (1 << (length + 1)) - count
-        x = self.source.bits(length)
-        return x if x < short else 2 * x + self.source.bits(1) - short
 
     def scaled(self, x, e):
         return math.floor((x * 10.0 ** e if e >= 0 else x / 10.0 ** -e) + 0.5)
@@ -72,11 +81,7 @@ class FloatReader:
         return -rank if x < 0 else rank
 
     def decimal_bits(self, rank):
-        end, e, k = 10 ** self.digits, self.places, abs(rank)
-        while k >= end:
-            e, k = e - 1, k - (end - end // 10)
-        value = k / 10.0 ** e if e >= 0 else k * 10.0 ** -e
-        return struct.unpack('<I', struct.pack('<f', -value if rank < 0 else value))[0]
+        return float_bits(decimal_value(rank, self.digits, self.places))
 
 
 def read_boundary_map(source, finest_lengths, loops):
@@ -124,6 +129,28 @@ class Region:
     pass
 
 
+def read_listed_positions(source, table, box, vertices, grid, region):
+    """Section 4.8; `grid` is that of a bit-exact model, else None."""
+    if grid is None:
+        magnitudes = read_ascending(source, LIST_GAP)
+    else:
+        rounded = lambda rank, digits, places: f32(decimal_value(rank, digits, places))
+        magnitudes = read_float_magnitudes(source, rounded)
+    lists = read_lists(source, magnitudes)
+    require(all(lists) and sum(map(len, lists)) <= 3 * vertices, 'no values, or too many')
+    places = PlaceReader(source, table, lists, vertices).read()
+    values = [[lists[axis][p[axis]] for axis in range(3)] for p in places]
+    if grid is None:
+        region.positions = values
+    else:
+        region.floats = [[float_bits(x) for x in p] for p in values]
+        last = (1 << grid.bits) - 1
+        steps = [[math.floor((p[a] - grid.origin[a]) / grid.step + 0.5) for a in range(3)] for p in values]
+        region.positions = [[max(0, min(last, x)) for x in p] for p in steps]
+    for p in region.positions:
+        require(all(low <= x <= high for x, (low, high) in zip(p, box)), 'outside the box')
+
+
 def read_region(data, entry, level, grid, is_exact, tables):
     """entry, level: as pack.py reads them."""
     flags, number = data[0], entry.levels.index(level)
@@ -132,9 +159,15 @@ def read_region(data, entry, level, grid, is_exact, tables):
     source = Rans(data[1:], tables.region)
     box = [(low >> level.dropped, high >> level.dropped) for low, high in entry.box]
     region = Region()
+    region.floats = None
     if level.triangles:
         table = read_connectivity(source, level.triangles)
-        region.positions = PositionCoder(source, table, box, tables).read()
+        way = source.symbol(IS_LISTED)
+        require(way <= 1, 'an unknown way')
+        if way:
+            read_listed_positions(source, table, box, level.vertices, grid if flags >> 6 & 1 else None, region)
+        else:
+            region.positions = PositionCoder(source, table, box, tables).read()
         loops = boundary_loops(table)
     else:
         table = CornerTable()
@@ -143,10 +176,9 @@ def read_region(data, entry, level, grid, is_exact, tables):
         loops = [list(range(level.vertices))]
     require(len(region.positions) == level.vertices, 'not the promised vertices')
     region.triangles = [table.vertex[c:c + 3] for c in range(0, len(table.vertex), 3)]
-    region.floats = None
     own_boundary = [v for loop in loops for v in loop]
     region.boundary = own_boundary
-    if flags >> 6 & 1:
+    if flags >> 6 & 1 and region.floats is None:
         floats = FloatReader(source, grid.origin, grid.step)
         region.floats = [[floats.read(axis, p[axis]) for axis in range(3)] for p in region.positions]
     if number > 0:

@@ -20,7 +20,7 @@ struct GoldenPack {
   std::vector<double> level_ratios = {};  ///< of levels beside the finest
 };
 
-/// Holes, handles, pieces, junctions, turned triangles, welds and exact positions between them.
+/// Holes, handles, pieces, junctions, turned triangles, welds, exact positions and lists of values between them.
 std::vector<GoldenPack> golden_packs();
 
 }  // namespace selvage

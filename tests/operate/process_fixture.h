@@ -34,9 +34,9 @@ class ProcessFixture : public ::testing::Test {
     return start(std::move(arguments));
   }
 
-  /// Something of a few MiB as text, and of 35 KiB as a pack, or more than 100 if lossless.
+  /// Something of a few MiB as text, and of some tens of KiB as a pack, or more than 96 if lossless.
   static TriangleSoup ring() {
-    auto soup = shapes::torus(150, 200);
+    auto soup = shapes::torus(180, 240);
     for (Vec3& at : soup.positions)
       at = {static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)};
     return soup;
