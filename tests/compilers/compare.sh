@@ -13,13 +13,13 @@ clang=$(command -v clang++-14 || command -v clang++) || { echo "skipped: no clan
 build_and_run() {
   name=$1 compiler=$2
   shift 2
-  objects=
+  objects=$work/$name.objects
+  rm -rf "$objects"
+  mkdir -p "$objects"
   for file in $(cat tests/wasm/decoder_sources.txt); do
-    object=$work/$name-$(echo "$file" | tr / -).o
-    $launcher "$compiler" -std=c++20 -ffp-contract=off -I. "$@" -c "$file" -o "$object"
-    objects="$objects $object"
+    $launcher "$compiler" -std=c++20 -ffp-contract=off -I. "$@" -c "$file" -o "$objects/$(echo "$file" | tr / -).o"
   done
-  "$compiler" $objects -o "$work/$name"
+  "$compiler" "$objects"/*.o -o "$work/$name"
   "$work/$name" tests/fuzz/corpus/fuzz_region/* tests/fuzz/corpus/fuzz_bundle/* > "$work/$name.txt"
   cmp "$work/native.txt" "$work/$name.txt"
   echo "$name: $(wc -l < "$work/$name.txt") parts"
