@@ -21,6 +21,7 @@ class CountedStream final : public ByteStream {
     co_return count;
   }
   asio::awaitable<Result<void>> write(const Pieces& pieces) override { return stream_->write(pieces); }
+  void end_writing() override { stream_->end_writing(); }
   void close() override { stream_->close(); }
   asio::any_io_executor executor() override { return stream_->executor(); }
   std::string peer() const override { return stream_->peer(); }

@@ -110,6 +110,8 @@ class LoadStream final : public ByteStream {
     co_return Result<void>();
   }
 
+  void end_writing() override { uplink_->stream->end_writing(); }
+
   void close() override {
     uplink_->closed = true;
     uplink_->wakes.notify();

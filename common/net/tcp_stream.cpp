@@ -178,6 +178,11 @@ class TcpStream final : public ByteStream {
   asio::awaitable<Result<void>> wait_to_write() override { return pace_.wait(); }
   std::size_t write_size() const override { return pace_.write_size(); }
 
+  void end_writing() override {
+    error_code ignored;
+    socket_.shutdown(tcp::socket::shutdown_send, ignored);
+  }
+
   void close() override {
     error_code ignored;
     socket_.shutdown(tcp::socket::shutdown_both, ignored);

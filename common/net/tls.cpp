@@ -131,6 +131,11 @@ class TlsStream final : public ByteStream {
   /// Records are encrypted one by one in any case: large writes save less than they delay.
   std::size_t write_size() const override { return std::min(pace_.write_size(), kUsualWrite); }
 
+  void end_writing() override {
+    error_code ignored;
+    stream_.next_layer().shutdown(tcp::socket::shutdown_send, ignored);
+  }
+
   void close() override {
     error_code ignored;
     stream_.next_layer().shutdown(tcp::socket::shutdown_both, ignored);

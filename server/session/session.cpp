@@ -22,6 +22,8 @@ constexpr std::size_t kSmallRequest = 16u << 10;
 constexpr std::size_t kSmallModel = 4096;
 /// With a limit on the rate this much may go at once, and a write waits until it may carry as much as that.
 constexpr std::uint64_t kBurst = 64u << 10;
+/// So long a client that has been sent everything may take to leave.
+constexpr std::chrono::seconds kFarewell{1};
 
 bool is_request(FrameType type) {
   return type == FrameType::ListModels || type == FrameType::OpenModel || type == FrameType::GetParts ||
@@ -82,6 +84,8 @@ void Session::on_deadline() {
   if (is_write) {
     if (!reason_) reason_ = Error{ErrorCode::Timeout, "the client does not take what it asked for"};
     stream_->close();
+  } else if (sent_all_) {
+    finish();
   } else {
     if (!reason_) reason_ = Error{ErrorCode::Timeout, "nothing heard from the client for too long"};
     if (!is_ready_) return stream_->close();  // in the middle of a handshake nothing can be said
@@ -128,14 +132,15 @@ asio::awaitable<void> Session::read_loop() {
     if (frame && !frame->has_value()) co_return;  // the client has left
     Result<void> handled;
     if (frame) {
+      if (sent_all_) continue;
       set_deadline(read_by_, kNever);  // what comes is our time, not the client's
       handled = co_await handle(**frame);
-      set_deadline(read_by_, Deadline::Clock::now() + limits_.idle_timeout);
+      if (!sent_all_) set_deadline(read_by_, Deadline::Clock::now() + limits_.idle_timeout);
     } else {
       handled = forward_error(frame);
     }
     if (!handled) {
-      if (!reason_ && !closing_) reason_ = handled.error();
+      if (!reason_ && !closing_ && !sent_all_) reason_ = handled.error();
       co_return;
     }
   }
@@ -418,10 +423,15 @@ asio::awaitable<void> Session::write_loop() {
     co_await rate_pause_.wait_for(pause);
   }
   is_writing_ = false;
-  if (is_broken || closing_ || (draining_ && outbox_.idle() && !upload_)) {
+  if (is_broken || closing_) {
     closing_ = true;
     stream_->close();  // which ends the reader
     wake_reader_.notify();
+  } else if (draining_ && outbox_.idle() && !upload_) {
+    // A close now would take back what the client has not received yet, if it has sent a Credit meanwhile.
+    sent_all_ = true;
+    stream_->end_writing();
+    set_deadline(read_by_, Deadline::Clock::now() + kFarewell);
   }
 }
 

@@ -149,6 +149,7 @@ class Session {
   bool is_ready_ = false;  ///< the stream's own handshake is done
   bool greeted_ = false;
   bool draining_ = false;  ///< no new requests; the writer ends when all is sent
+  bool sent_all_ = false;  ///< it has; what the client still says is read and ignored, until it leaves
   bool closing_ = false;   ///< the writer sends what control frames are left, and ends
   std::optional<Error> reason_;
 };

@@ -65,6 +65,8 @@ class MemoryStream final : public ByteStream {
     co_return Result<void>();
   }
 
+  void end_writing() override { out_->close(); }
+
   void close() override {
     closed_ = true;
     in_->close();
