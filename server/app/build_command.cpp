@@ -24,13 +24,6 @@ std::filesystem::path output_path(const BuildCommand& command) {
   return command.store / (command.segmentation.model.stem().string() + ".selvage");
 }
 
-std::vector<LevelGoal> goals_of(const BuildCommand& command) {
-  std::vector<LevelGoal> goals;
-  for (double ratio : command.level_ratios) goals.push_back({.ratio = ratio});
-  for (double error : command.level_errors) goals.push_back({.error = error});
-  return goals.empty() ? usual_levels(command.levels) : goals;
-}
-
 /// What the whole model takes at one level, joins at full resolution included.
 struct LevelTotal {
   std::uint64_t triangles = 0, bytes = 0;
@@ -145,7 +138,7 @@ Result<void> run(const BuildCommand& command) {
                               std::move(*parts),
                               command.segmentation.segment,
                               command.lossless,
-                              goals_of(command)};
+                              level_goals(command.levels, command.level_ratios, command.level_errors)};
   ProgressLine line;
   auto model =
       ingest(file->soup, options, threaded_for(command.threads), [&](const std::string& stage, double done) {

@@ -203,6 +203,14 @@ std::vector<LevelGoal> usual_levels(unsigned count) {
   return goals;
 }
 
+std::vector<LevelGoal> level_goals(unsigned count, std::span<const double> ratios,
+                                   std::span<const double> errors) {
+  std::vector<LevelGoal> goals;
+  for (const double ratio : ratios) goals.push_back({.ratio = ratio});
+  for (const double error : errors) goals.push_back({.error = error});
+  return goals.empty() ? usual_levels(count) : goals;
+}
+
 Result<IngestedModel> ingest(const TriangleSoup& soup, const IngestOptions& options,
                              const ParallelFor& parallel, const Progress& progress) {
   if (options.bits < kMinGridBits || options.bits > kMaxGridBits) {

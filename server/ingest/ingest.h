@@ -8,6 +8,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,9 @@ struct LevelGoal {
 /// a quarter and a sixteenth for three, each at half of the one before for more. The second of two takes at
 /// most a quarter of the bytes, give or take the directory's.
 std::vector<LevelGoal> usual_levels(unsigned count);
+/// One goal a share of the triangles, or an error in model units; where neither is given, the usual ones.
+std::vector<LevelGoal> level_goals(unsigned count, std::span<const double> ratios,
+                                   std::span<const double> errors);
 
 struct IngestOptions {
   std::string name;                             ///< of the model, for people

@@ -34,13 +34,6 @@ Result<Parts> parts_by(PublishCut::By by, const MeshFile& file) {
   return Parts{};
 }
 
-std::vector<LevelGoal> goals_of(const PublishCut& cut) {
-  std::vector<LevelGoal> goals;
-  for (const double ratio : cut.level_ratios) goals.push_back({.ratio = ratio});
-  for (const double error : cut.level_errors) goals.push_back({.error = error});
-  return goals.empty() ? usual_levels(cut.levels) : goals;
-}
-
 }  // namespace
 
 Result<IngestOptions> ingest_options(const Publish& request, const MeshFile& file) {
@@ -57,7 +50,7 @@ Result<IngestOptions> ingest_options(const Publish& request, const MeshFile& fil
   options.segment.min_region_vertices = request.cut.min_region;
   options.segment.max_region_vertices = request.cut.max_region;
   options.segment.smooth = request.cut.smooth;
-  options.levels = goals_of(request.cut);
+  options.levels = level_goals(request.cut.levels, request.cut.level_ratios, request.cut.level_errors);
   return options;
 }
 
