@@ -78,6 +78,13 @@ std::vector<std::byte> hello_flight() {
   return to_frame(hello, 0);
 }
 
+/// Hello, and a get of everything.
+std::vector<std::byte> bulk_flight(const std::string& model) {
+  std::vector<std::byte> flight = hello_flight();
+  append(flight, get_all(model), 1);
+  return flight;
+}
+
 asio::awaitable<double> time_first_region(Destination to, std::string model) {
   Line line;
   co_await connect(line, to);
@@ -103,9 +110,7 @@ asio::awaitable<double> time_first_region(Destination to, std::string model) {
 asio::awaitable<CancelCost> time_cancel(Destination to, std::string model, double after) {
   Line line;
   co_await connect(line, to);
-  std::vector<std::byte> flight = hello_flight();
-  append(flight, get_all(model), 1);
-  co_await line.peer->send_bytes(std::move(flight));
+  co_await line.peer->send_bytes(bulk_flight(model));
   while (seconds_since(line.connected) < after) (void)co_await line.receive();
   const std::uint64_t before = line.received;
   const auto cancelled = Clock::now();
@@ -123,8 +128,7 @@ asio::awaitable<CancelCost> time_cancel(Destination to, std::string model, doubl
 asio::awaitable<LinkPings> time_pings(Destination to, std::string model, double seconds) {
   Line line;
   co_await connect(line, to);
-  std::vector<std::byte> flight = hello_flight();
-  append(flight, get_all(model), 1);
+  std::vector<std::byte> flight = bulk_flight(model);
   append(flight, Ping{}, 999);
   co_await line.peer->send_bytes(std::move(flight));
   LinkPings pings;
