@@ -30,13 +30,13 @@ class StageClock {
  public:
   StageClock(const Progress& progress, std::vector<StageTime>& times) : progress_(progress), times_(times) {}
 
-  /// Runs one stage; gives what it returns.
+  /// Runs one stage, or once more one that ran before; gives what it returns.
   template <class Stage>
   auto run(const std::string& name, Stage stage) {
     report(name, 0);
     const auto begin = std::chrono::steady_clock::now();
     auto result = stage();
-    times_.push_back({name, std::chrono::steady_clock::now() - begin});
+    add(name, std::chrono::steady_clock::now() - begin);
     return result;
   }
 
@@ -48,6 +48,15 @@ class StageClock {
   bool is_cancelled() const { return is_cancelled_; }
 
  private:
+  void add(const std::string& name, std::chrono::duration<double> time) {
+    const auto known = std::ranges::find(times_, name, &StageTime::stage);
+    if (known == times_.end()) {
+      times_.push_back({name, time});
+    } else {
+      known->seconds += time;
+    }
+  }
+
   const Progress& progress_;
   std::vector<StageTime>& times_;
   std::mutex mutex_;

@@ -205,6 +205,9 @@ TEST(Levels, OfTwoTheSecondTakesAQuarterOfTheBytesAtMost) {
   EXPECT_LE(share_of_bytes(*usual), 0.25);
   EXPECT_GT(share_of_bytes(*usual), 0.15);
   EXPECT_GT(share_of_bytes(*asked), 0.26) << "who names a ratio gets it";
+  std::set<std::string> stages;
+  for (const StageTime& time : usual->times)
+    EXPECT_TRUE(stages.insert(time.stage).second) << time.stage << " is listed twice";
 }
 
 TEST(Levels, RefusesGoalsThatDoNotGetCoarser) {
