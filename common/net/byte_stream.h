@@ -63,8 +63,8 @@ class ByteStream {
   virtual std::size_t write_size() const { return kUsualWrite; }
   static constexpr std::size_t kUsualWrite = 32u << 10;
 
-  /// Says that nothing more comes, and goes on reading: what was written arrives. After close() it need not, if
-  /// the peer has sent something that nobody read.
+  /// Says that nothing more comes, and goes on reading: what was written arrives. After close() it need not,
+  /// if the peer has sent something that nobody read.
   virtual void end_writing() = 0;
 
   /// Ends both directions; what is under way fails with Cancelled. May be called again.

@@ -23,8 +23,8 @@ class PagePipe {
   PagePipe(const PagePipe&) = delete;
   PagePipe& operator=(const PagePipe&) = delete;
 
-  /// Puts bytes of a file mapped shared into the pipe, or copies of any others. How much of it went in, as in
-  /// write(2); less than all when the pipe is full; EFAULT if the file has been cut short.
+  /// Puts bytes of a mapped file, which nobody changes, into the pipe, or copies of any others. How much of
+  /// it went in, as in write(2); less than all when the pipe is full; EFAULT if the file has been cut short.
   ssize_t add_pages(std::span<const std::byte> bytes);
   ssize_t add_copies(std::span<const iovec> pieces);
 

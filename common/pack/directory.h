@@ -16,6 +16,7 @@
 #include "common/base/ids.h"
 #include "common/base/result.h"
 #include "common/mesh/grid.h"
+#include "common/pack/directory_limits.h"
 
 namespace selvage {
 
@@ -147,7 +148,7 @@ Result<Directory> parse_directory(std::span<const std::byte> bytes, std::uint32_
 /// everything but the regions (they are there, and empty), then any pages in any order. LimitExceeded beyond
 /// `max_regions`, for which the summary alone makes room.
 Result<Directory> parse_summary(std::span<const std::byte> summary, std::uint64_t directory_size,
-                                std::uint32_t max_regions = 1u << 20);
+                                std::uint32_t max_regions = kMaxRegions);
 /// BadStream, with nothing read, if the bytes are not that page. Reading one again changes nothing.
 Result<void> read_page(Directory& directory, std::uint32_t page, std::span<const std::byte> bytes);
 

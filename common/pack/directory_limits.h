@@ -8,8 +8,8 @@
 
 namespace selvage {
 
-inline constexpr std::size_t kMaxDirectoryText =
-    4096;  ///< bytes of a name, units, or a metadata key or value
+/// Bytes of a name, units, or a metadata key or value.
+inline constexpr std::size_t kMaxDirectoryText = 4096;
 /// A client that reads a summary without its pages takes no more (parse_summary).
 inline constexpr std::uint32_t kMaxRegions = 1u << 20;
 
