@@ -65,7 +65,10 @@ demo_model() {
   # The default finds parts where a surface bends inwards; a machined part also has them at its sharp edges.
   local mode=xmrg
   [[ $file != "$out/bracket.ply" ]] || mode=cad
-  show "$bin/selvage-pack" build "$file" --store "$out/store" --name "$name" --mode "$mode"
+  if ! show "$bin/selvage-pack" build "$file" --store "$out/store" --name "$name" --mode "$mode"; then
+    echo "demo: no pack could be made of $file, see above" >&2
+    exit 1
+  fi
   echo
   show "$bin/selvage-client" list "${address%/*}"
   echo
