@@ -2,6 +2,7 @@
 #include "server/session/session.h"
 
 #include <algorithm>
+#include <array>
 
 #include <boost/asio/co_spawn.hpp>
 
@@ -62,6 +63,7 @@ asio::awaitable<void> Session::run() {
   finish();
   while (writers_ > 0) co_await writer_ended_.wait();
   ended_ = true;
+  co_await see_off();
   deadline_.stop();
   stream_->close();
   if (thrown_) std::rethrow_exception(thrown_);
@@ -85,7 +87,7 @@ void Session::on_deadline() {
     if (!reason_) reason_ = Error{ErrorCode::Timeout, "the client does not take what it asked for"};
     stream_->close();
   } else if (sent_all_) {
-    finish();
+    stream_->close();
   } else {
     if (!reason_) reason_ = Error{ErrorCode::Timeout, "nothing heard from the client for too long"};
     if (!is_ready_) return stream_->close();  // in the middle of a handshake nothing can be said
@@ -93,7 +95,7 @@ void Session::on_deadline() {
   }
 }
 
-/// Nothing more is read: tells the client why, and lets the writer end the connection.
+/// No more requests are taken: tells the client why, and lets the writer end.
 void Session::finish() {
   if (closing_) return;
   closing_ = true;
@@ -132,10 +134,10 @@ asio::awaitable<void> Session::read_loop() {
     if (frame && !frame->has_value()) co_return;  // the client has left
     Result<void> handled;
     if (frame) {
-      if (sent_all_) continue;
+      if (closing_ || sent_all_) co_return;
       set_deadline(read_by_, kNever);  // what comes is our time, not the client's
       handled = co_await handle(**frame);
-      if (!sent_all_) set_deadline(read_by_, Deadline::Clock::now() + limits_.idle_timeout);
+      if (!closing_ && !sent_all_) set_deadline(read_by_, Deadline::Clock::now() + limits_.idle_timeout);
     } else {
       handled = forward_error(frame);
     }
@@ -143,6 +145,16 @@ asio::awaitable<void> Session::read_loop() {
       if (!reason_ && !closing_ && !sent_all_) reason_ = handled.error();
       co_return;
     }
+  }
+}
+
+/// To close while anything from the client is unread would take back what it has not received yet. So what it
+/// still says is read and ignored, until it leaves or its time is up.
+asio::awaitable<void> Session::see_off() {
+  while (sent_all_) {
+    std::array<std::byte, kReadSize> ignored;
+    const Result<std::size_t> count = co_await stream_->read_some(ignored);
+    if (!count || *count == 0) co_return;
   }
 }
 
@@ -423,16 +435,16 @@ asio::awaitable<void> Session::write_loop() {
     co_await rate_pause_.wait_for(pause);
   }
   is_writing_ = false;
-  if (is_broken || closing_) {
+  const bool is_drained = draining_ && outbox_.idle() && !upload_;
+  if (is_broken) {
     closing_ = true;
     stream_->close();  // which ends the reader
-    wake_reader_.notify();
-  } else if (draining_ && outbox_.idle() && !upload_) {
-    // A close now would take back what the client has not received yet, if it has sent a Credit meanwhile.
+  } else if ((closing_ || is_drained) && !sent_all_) {
     sent_all_ = true;
     stream_->end_writing();
     set_deadline(read_by_, Deadline::Clock::now() + kFarewell);
   }
+  if (closing_) wake_reader_.notify();
 }
 
 asio::awaitable<Result<void>> Session::write(Batch& batch) {

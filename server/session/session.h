@@ -58,6 +58,7 @@ class Session {
   void finish();
   void wake_writer();
   asio::awaitable<void> read_loop();
+  asio::awaitable<void> see_off();
   asio::awaitable<void> write_loop();
   asio::awaitable<Result<void>> write(Batch& batch);
 
@@ -149,8 +150,8 @@ class Session {
   bool is_ready_ = false;  ///< the stream's own handshake is done
   bool greeted_ = false;
   bool draining_ = false;  ///< no new requests; the writer ends when all is sent
-  bool sent_all_ = false;  ///< it has; what the client still says is read and ignored, until it leaves
   bool closing_ = false;   ///< the writer sends what control frames are left, and ends
+  bool sent_all_ = false;  ///< it has; what the client still says is read and ignored, until it leaves
   std::optional<Error> reason_;
 };
 

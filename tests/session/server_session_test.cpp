@@ -440,6 +440,33 @@ TEST(ServerSession, EndsWhenTheClientLeavesInTheMiddleOfAFrame) {
   EXPECT_EQ(harness.session().reason()->code, ErrorCode::Io);
 }
 
+TEST(ServerSession, AnEndSaysWhyAndReadsOnUntilTheClientLeaves) {
+  SessionHarness harness;
+  RawPeer peer(harness.connect());
+  const auto work = [](RawPeer& client) -> Work {
+    co_await client.send(Ping{}, 1);
+    const auto frame = co_await client.receive();
+    EXPECT_TRUE(frame && frame->is(FrameType::Error));
+    co_await client.send_bytes(Bytes(1 << 20));  // more than is under way, so it is read
+    EXPECT_FALSE(client.broken());
+    client.close();
+  };
+  harness.run(work(peer));
+  EXPECT_EQ(harness.session().reason()->code, ErrorCode::Protocol);
+}
+
+TEST(ServerSession, AnEndDoesNotWaitForEver) {
+  SessionHarness harness;
+  RawPeer peer(harness.connect());
+  const auto work = [](RawPeer& client) -> Work {
+    co_await client.send(Ping{}, 1);
+    const auto frame = co_await client.receive();
+    EXPECT_TRUE(frame && frame->is(FrameType::Error));
+    while (!client.broken()) co_await client.send_bytes(Bytes(1 << 10));
+  };
+  harness.run(work(peer));
+}
+
 // ---- clients that waste time or memory
 // -----------------------------------------------------------------------
 
