@@ -154,8 +154,8 @@ Result<void> decode_listed_positions(EntropyDecoder& in, const GridBox& box, std
   FanWalk order(table, vertices, memory);
   if (!decode_places(in, lists, box, exact, order, vertices, mesh))
     return corrupt("impossible places, or not the promised vertices");
-  mesh.table = order.plain_table();
-  mesh.loops = find_boundary_loops(mesh.table, order.border_vertices());
+  mesh.triangles = order.triangles();
+  mesh.loops = order.boundary_loops();
   return {};
 }
 

@@ -63,13 +63,12 @@ class ClersGrower {
  private:
   // A vertex of the growing border has one open fan, and so one border edge that arrives at it; its corner is
   // the one that faces this edge.
-  FanCorner& arriving(VertexId v) { return table_.vertices[v].corner; }
-  FanCorner arriving(VertexId v) const { return table_.vertices[v].corner; }
+  FanCorner& arriving(VertexId v) { return table_.at(v).corner; }
+  FanCorner arriving(VertexId v) const { return table_.at(v).corner; }
 
-  std::uint32_t triangles(VertexId v) const { return table_.vertices[v].triangles; }
-  FanCorner add_triangle(VertexId tip, VertexId after, VertexId before);
-  VertexId add_vertex();
+  std::uint32_t triangles(VertexId v) const { return table_.at(v).triangles; }
   void close_fan(VertexId v, FanCorner own);
+  void add_to_fan(VertexId v, FanCorner arriving);
   bool is_open(FanCorner c) const { return arriving(table_.vertex(prev_on(c))) == c; }
   bool split(FanCorner gate);
   FanCorner left_branch_of_split();
@@ -91,20 +90,13 @@ inline unsigned ClersGrower::context() const {
   return last + (std::min(triangles(tail_), kCounts) - 1) * kCounts + std::min(triangles(head_), kCounts) - 1;
 }
 
-[[gnu::always_inline]] inline FanCorner ClersGrower::add_triangle(VertexId tip, VertexId after,
-                                                                  VertexId before) {
-  for (VertexId v : {tip, after, before}) ++table_.vertices[v].triangles;
-  return table_.add_triangle(tip, after, before);
-}
-
-[[gnu::always_inline]] inline VertexId ClersGrower::add_vertex() {
-  table_.vertices.emplace_back();
-  return table_.vertex_count() - 1;
-}
-
+/// Its border is used up by a triangle that has this corner there.
 inline void ClersGrower::close_fan(VertexId v, FanCorner own) {
-  table_.vertices[v].triangles |= FanTable::Vertex::kIsInside;
-  table_.vertices[v].corner = own;
+  table_.at(v) = {(triangles(v) + 1) | FanTable::Vertex::kIsInside, own};
+}
+
+inline void ClersGrower::add_to_fan(VertexId v, FanCorner arriving) {
+  table_.at(v) = {triangles(v) + 1, arriving};
 }
 
 // The gate runs from tail to head, and the new triangle's tip corner faces the next gate.
@@ -114,13 +106,13 @@ inline void ClersGrower::close_fan(VertexId v, FanCorner own) {
 [[gnu::always_inline]] inline bool ClersGrower::grow(Clers symbol) {
   if (symbol == Clers::E) {
     last_ = Clers::E;
-    const VertexId tip = add_vertex(), after = add_vertex(), before = add_vertex();
-    const FanCorner corner = add_triangle(tip, after, before);
-    arriving(before) = corner;
-    arriving(tip) = corner + 1;
-    arriving(after) = corner + 2;
+    const VertexId tip = table_.vertex_count();
+    tail_ = tip + 1, head_ = tip + 2;
+    const FanCorner corner = table_.add_triangle(tip, tail_, head_);
+    table_.add_vertex({1, corner + 1});
+    table_.add_vertex({1, corner + 2});
+    table_.add_vertex({1, corner});
     gates_.push_back(corner);
-    tail_ = after, head_ = before;
     return true;
   }
   // A handle may have used up the edge that waits here.
@@ -132,33 +124,36 @@ inline void ClersGrower::close_fan(VertexId v, FanCorner own) {
     const FanCorner left = arriving(tail_);
     const VertexId after = table_.next_vertex(left);
     if (after == head_) return false;
-    const FanCorner tip = add_triangle(tail_, after, head_);
+    const FanCorner tip = table_.add_triangle(tail_, after, head_);
     table_.glue_new_to_first<1>(tip, gate);
     table_.glue_new<2>(tip, left);
     close_fan(tail_, tip);
-    arriving(head_) = tip;
+    ++table_.at(after).triangles;
+    add_to_fan(head_, tip);
     gates_.back() = tip;
     tail_ = after;
     return true;
   }
   if (symbol == Clers::R) {
     last_ = Clers::R;
-    const VertexId v = add_vertex();
-    const FanCorner tip = add_triangle(head_, tail_, v);
+    const VertexId v = table_.vertex_count();
+    const FanCorner tip = table_.add_triangle(head_, tail_, v);
     table_.glue_new_to_first<2>(tip, gate);
-    arriving(v) = tip;
-    arriving(head_) = tip + 1;
+    table_.add_vertex({1, tip});
+    ++table_.at(tail_).triangles;
+    add_to_fan(head_, tip + 1);
     gates_.back() = tip;
     head_ = v;
     return true;
   }
   if (symbol == Clers::L) {
     last_ = Clers::L;
-    const VertexId v = add_vertex();
-    const FanCorner tip = add_triangle(tail_, v, head_);
+    const VertexId v = table_.vertex_count();
+    const FanCorner tip = table_.add_triangle(tail_, v, head_);
     table_.glue_new_to_first<1>(tip, gate);
-    arriving(v) = tip + 2;
-    arriving(head_) = tip;
+    table_.add_vertex({1, tip + 2});
+    ++table_.at(tail_).triangles;
+    add_to_fan(head_, tip);
     gates_.back() = tip;
     tail_ = v;
     return true;

@@ -13,6 +13,7 @@
 
 #include "common/codec/fan_table.h"
 #include "common/codec/scratch.h"
+#include "common/mesh/boundary_loops.h"
 
 namespace selvage {
 
@@ -37,7 +38,7 @@ class FanWalk {
   /// What a walk needs room for, kept between walks.
   struct Memory {
     Scratch<std::uint32_t> states;
-    Scratch<FanCorner> well, once, rims;
+    Scratch<FanCorner> well, once;
   };
 
   /// Ends after `most_vertices` at the latest. Borrows `table` and `memory`.
@@ -56,10 +57,11 @@ class FanWalk {
   std::uint32_t count() const { return count_; }
   /// True if no corner of the table is left.
   bool is_complete() const { return corners_left_ == 0; }
-  /// Numbers of the vertices on the border, ascending.
-  std::span<const VertexId> border_vertices() const { return border_; }
-  /// The table with vertices numbered by visit, once the walk is complete.
-  CornerTable plain_table() const;
+
+  // Once the walk is complete, with vertices numbered by visit:
+
+  std::vector<Triangle> triangles() const;
+  BoundaryLoops boundary_loops();
 
  private:
   /// The triangles around a vertex counter-clockwise: each one's corner at the neighbour that it begins with,
@@ -108,8 +110,10 @@ class FanWalk {
   std::size_t next_well_ = 0, well_end_ = 0, next_once_ = 0, once_end_ = 0;
   FanCorner next_seed_ = 0, current_ = kNone;
   Ring ring_;
-  FanCorner* rim_of_visited_;  ///< where its fan begins
-  std::vector<VertexId> border_;
+  struct BorderVertex {
+    VertexId number, next;  ///< `next` along the border, by old number
+  };
+  std::vector<BorderVertex> border_;  ///< ascending
 };
 
 // Called once a vertex, from one place that matters: saving registers would be a tenth of the work.
@@ -208,8 +212,7 @@ SELVAGE_ONE_CALLER void FanWalk::gather(Fan& fan) {
   fan.old_number = table_.vertex(current_);
   fan.triangles = ring_.triangles;
   fan.is_border = ring_.is_border;
-  states_[fan.old_number] = count_;
-  rim_of_visited_[count_++] = ring_.rims[Ring::kFirst];
+  states_[fan.old_number] = count_++;
 }
 
 #undef SELVAGE_ONE_CALLER

@@ -56,7 +56,7 @@ class GeometryWalk {
   /// Vertices placed so far.
   std::uint32_t count() const { return count_; }
   std::vector<GridPoint> positions() const;
-  const FanWalk& order() const { return order_; }
+  FanWalk& order() { return order_; }
 
  private:
   Fan& fan_of(VertexId v) { return fans_[v % kFans]; }

@@ -193,17 +193,16 @@ void encode_listed_floats(const FanTable& table, std::span<const ExactPosition> 
   encode_places(table, values, make_lists(magnitudes.values, magnitudes.signs), out);
 }
 
-bool may_be_listed(const CornerTable& table, std::span<const GridPoint> positions) {
+bool may_be_listed(std::span<const Triangle> triangles, std::span<const GridPoint> positions) {
   std::size_t alike = 0;
-  for (TriangleId t = 0; t < table.triangle_count(); ++t) {
-    const auto [a, b, c] = table.triangle(t);
+  for (const auto& [a, b, c] : triangles) {
     for (int axis = 0; axis < 3; ++axis) {
       const std::int32_t at_a = positions[a][axis], at_b = positions[b][axis], at_c = positions[c][axis];
       alike += static_cast<unsigned>(at_a == at_b) + (at_b == at_c) + (at_c == at_a);
     }
   }
   // An eighth of nine.
-  return 8 * alike >= 9 * std::size_t{table.triangle_count()};
+  return 8 * alike >= 9 * triangles.size();
 }
 
 }  // namespace selvage
