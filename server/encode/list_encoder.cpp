@@ -128,13 +128,15 @@ std::uint32_t place_of(const std::vector<double>& list, double value) {
   return static_cast<std::uint32_t>(found - list.begin()) + is_behind_minus_zero;
 }
 
-void encode_place(const PlaceWalk::Guess& guess, std::uint32_t place, EntropyEncoder& out) {
-  const auto end = guess.candidates.begin() + guess.count;
-  const auto found = std::find(guess.candidates.begin(), end, place);
-  if (found != end) return out.symbol(guess.model, static_cast<unsigned>(found - guess.candidates.begin()));
-  out.symbol(guess.model, PlaceWalk::Guess::kNoCandidate);
-  const auto step = static_cast<std::int32_t>(place - guess.expected);
-  out.number(guess.step_model, fold_sign(step) - 1);
+void encode_place(const PlaceWalk& walk, const Fan& fan, const PlaceWalk::Around& around, std::uint32_t place,
+                  EntropyEncoder& out) {
+  const PlaceWalk::Candidates candidates = walk.candidates(fan, around, PlaceWalk::kNoCandidate);
+  const auto begin = candidates.places.begin(), end = begin + candidates.count;
+  const auto found = std::find(begin, end, place);
+  if (found != end) return out.symbol(around.model, static_cast<unsigned>(found - begin));
+  out.symbol(around.model, PlaceWalk::kNoCandidate);
+  const auto step = static_cast<std::int32_t>(place - walk.expected(fan, around));
+  out.number(around.step_model, fold_sign(step) - 1);
 }
 
 // In step with decode_places of client/decode/list_decoder.cpp.
@@ -156,9 +158,9 @@ void encode_places(const FanTable& table, std::span<const Values> positions, con
         walk.place_first(axis, place);
         continue;
       }
-      const PlaceWalk::Guess guess = walk.guess(fan, axis);
-      encode_place(guess, place, out);
-      walk.place(guess, axis, place);
+      const PlaceWalk::Around around = walk.look_around(fan, axis);
+      encode_place(walk, fan, around, place, out);
+      walk.place(around, place);
     }
     walk.finish_vertex();
   }
