@@ -202,8 +202,8 @@ std::array<ShapeWeights, kShapeClasses> fit_shape(const TrainingSet& set) {
         if (around.parallelograms > 0) {
           // At least a 32nd of the reach: where all is flat and regular, one outlier would decide
           // everything.
-          const double expected =
-              std::exp2(std::max({around.logs[0], around.logs[2], around.logs[3] - 40}) / 8.0) / 4;
+          const FloatLanes logs = around.logs * (1 / kLogUnit);
+          const double expected = std::exp2(std::max({logs[0], logs[2], logs[3] - 40}) / 8.0) / 4;
           for (int axis = 0; axis < 3; ++axis) {
             const double y = position[axis] - double{around.mean[axis]};
             error += std::abs(y);

@@ -29,9 +29,11 @@ struct Residual {
   /// The model told `coarse`; the bits are the lowest ones of `window`.
   Residual(std::uint32_t coarse, int low_bits, std::uint64_t window)
       : bits(low_bits + ((coarse | static_cast<unsigned>(low_bits)) != 0)) {
-    const auto raw = static_cast<std::uint32_t>(window);
-    magnitude = static_cast<std::int32_t>(coarse << low_bits | (raw >> 1 & ((1u << low_bits) - 1)));
-    const auto sign = static_cast<std::int32_t>(raw & 1);
+    // The sign is the lowest bit; without low bits and magnitude it is another's, and 0 has none.
+    const std::uint32_t whole =
+        coarse << 1 << low_bits | (static_cast<std::uint32_t>(window) & ((2u << low_bits) - 1));
+    magnitude = static_cast<std::int32_t>(whole >> 1);
+    const auto sign = static_cast<std::int32_t>(whole & 1);
     value = (magnitude ^ -sign) + sign;
   }
 };

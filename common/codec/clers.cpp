@@ -20,10 +20,10 @@ bool ClersGrower::split(FanCorner gate) {
   table_.glue(tip + 1, gate);
   table_.glue(tip + 2, left);
   add_to_fan(joined, arriving_at_tail);
-  ++table_.at(left_tail).triangles;
-  add_to_fan(head, tip);
-  gates_.back() = tip;
+  gate_ = tip;
   tail_ = left_tail;
+  const std::uint32_t around_tail = add_to_fan(tail_);
+  context_ = context_after(Clers::S, around_tail, add_to_fan(head, tip));
   return true;
 }
 
@@ -33,13 +33,14 @@ FanCorner ClersGrower::left_branch_of_split() {
     const HandleSplit& handle = splits_[next_split_++];
     return handle.source < grown ? 8 * handle.source + (handle.is_left ? 2 : 1) : kNone;
   }
-  if (gates_.size() < 2) return kNone;
-  const FanCorner left = gates_[gates_.size() - 2];
+  if (gates_.empty()) return kNone;
+  const FanCorner left = gates_.back();
   gates_.pop_back();
   return left;
 }
 
 std::uint32_t ClersGrower::finish() {
+  if (gate_ != kNone) gates_.push_back(gate_);
   const auto components = static_cast<std::uint32_t>(gates_.size());
   table_.make_room_for(components);
   return components;

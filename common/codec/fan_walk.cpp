@@ -5,11 +5,12 @@ namespace selvage {
 
 FanWalk::FanWalk(const FanTable& table, std::uint32_t most_vertices, Memory& memory)
     : table_(table),
+      memory_(memory),
       most_vertices_(most_vertices),
       corners_left_(3 * std::size_t{table.triangle_count()}),
       states_(memory.states.make(table.vertex_count())),
-      well_(memory.well.make(table.vertex_count() + 1)),
-      once_(memory.once.make(table.vertex_count() + 1)) {
+      queue_end_{memory.once.make(table.vertex_count()), memory.well.make(table.vertex_count()), &nowhere_},
+      queue_next_{queue_end_[kOnceQueue], queue_end_[kWellQueue]} {
   for (VertexId v = 0; v < table.vertex_count(); ++v) {
     const std::uint32_t triangles = table.at(v).closed_fan();
     states_[v] = kUnvisited + (triangles <= kSteps ? triangles : 0);
@@ -54,7 +55,8 @@ void FanWalk::turn_slowly() {
   const bool is_open = ring_.is_border || collected < triangles;
   if (ring_.neighbours > Ring::kMost) ring_.neighbours = Ring::kMost, unknown >>= 1;
   ring_.triangles = ring_.neighbours - is_open;
-  ring_.unknown = unknown << (Ring::kFirst + 1 - ring_.neighbours);
+  ring_.set_unknown(unknown << (Ring::kFirst + 1 - ring_.neighbours), Ring::first_ones(ring_.neighbours),
+                    Ring::first_ones(ring_.triangles));
   if (!is_open) ring_.states[Ring::kFirst - ring_.neighbours] = ring_.states[Ring::kFirst];
 }
 
@@ -65,8 +67,8 @@ std::vector<Triangle> FanWalk::triangles() const {
 BoundaryLoops FanWalk::boundary_loops() {
   BoundaryLoops loops;
   loops.vertices.reserve(border_.size());
-  // Nothing is queued any more; one queue serves to find border vertices by their number.
-  VertexId* place_of_number = well_;
+  // Nothing is queued any more; a queue serves to find border vertices by their number.
+  VertexId* place_of_number = memory_.once.data();
   for (VertexId place = 0; place < border_.size(); ++place) place_of_number[border_[place].number] = place;
   std::vector<bool> is_listed(border_.size());
   for (VertexId start = 0; start < border_.size(); ++start) {
