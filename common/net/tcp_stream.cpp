@@ -95,7 +95,9 @@ class Unsent {
   ssize_t hand_over(int socket, PagePipe& pipe, CopiedRun& run) const {
     std::size_t at = next_;
     for (;;) {
-      if (run.count > 0 && pipe.add_copies(run.filled()) != static_cast<ssize_t>(run.size)) break;
+      const ssize_t copied = run.count > 0 ? pipe.add_copies(run.filled()) : 0;
+      if (copied < 0 && pipe.empty()) return copied;
+      if (copied != static_cast<ssize_t>(run.size)) break;
       at = run.end;
       if (at == pieces_.size() || !is_handed_over(pieces_[at])) break;
       const std::span<const std::byte> pages = rest_of(at);
