@@ -64,6 +64,7 @@ class FanWalk {
   // Once the walk is complete, with vertices numbered by visit:
 
   std::vector<Triangle> triangles() const;
+  /// Takes the room of a queue.
   BoundaryLoops boundary_loops();
 
  private:
@@ -100,7 +101,6 @@ class FanWalk {
   /// A vertex's state is its new number or, above it, how many triangles predict it (kOffered, up to two)
   /// and, if its fan is known to be closed and has up to kSteps triangles, how many they are.
   static constexpr std::uint32_t kUnvisited = 1u << 31, kOffered = 1u << 29, kTriangles = kOffered - 1;
-  static constexpr std::uint32_t kOnce = kUnvisited + kOffered, kWell = kOnce + kOffered;
   static constexpr unsigned kSteps = 8;
 
   bool find_next();
