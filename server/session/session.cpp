@@ -6,8 +6,6 @@
 #include <optional>
 #include <utility>
 
-#include <boost/asio/co_spawn.hpp>
-
 #include "common/net/await.h"
 #include "common/net/frame_io.h"
 #include "server/session/request_handler.h"
@@ -18,14 +16,6 @@ namespace {
 constexpr std::string_view kSoftware = "selvage-server";
 /// One read: many small requests, or a Credit. An idle connection holds no more than this.
 constexpr std::size_t kReadSize = 512;
-/// Requests that look at more than so many things (bytes of the request, regions of the model) are answered
-/// on the workers: they may take a millisecond or more.
-constexpr std::size_t kSmallRequest = 16u << 10;
-constexpr std::size_t kSmallModel = 4096;
-/// With a limit on the rate this much may go at once, and a write waits until it may carry as much as that.
-constexpr std::uint64_t kBurst = 64u << 10;
-/// So long a client that has been sent everything may take to leave.
-constexpr std::chrono::seconds kFarewell{1};
 
 bool is_request(FrameType type) {
   return type == FrameType::ListModels || type == FrameType::OpenModel || type == FrameType::GetParts ||
@@ -117,9 +107,6 @@ void Session::shut_down() {
   draining_ = true;
   send(GoAway{"the server is shutting down"}, 0);
 }
-
-// ---- reading
-// -------------------------------------------------------------------------------------------------
 
 /// Until there is a reason not to.
 asio::awaitable<void> Session::read_loop() {
@@ -286,216 +273,6 @@ bool Session::refuse(std::uint32_t request_id, bool is_allowed, const char* scop
                                                        : "the token of '" + access_.who + "' does not have";
   send_error(Error{ErrorCode::Unauthorised, needs + lacks}, request_id);
   return true;
-}
-
-// ---- requests
-// ------------------------------------------------------------------------------------------------
-
-asio::awaitable<Result<void>> Session::list(std::uint32_t request_id, ListModels request) {
-  note("list", request_id, LogFields());
-  auto look = [&store = services_.store] { return store.list(); };
-  Result<std::vector<PackStore::Model>> models = co_await on_workers(std::move(look));
-  if (models) {
-    send(answer_list(request, *models), request_id);
-  } else {
-    send_error(models.error(), request_id);
-  }
-  co_return Result<void>();
-}
-
-asio::awaitable<Result<void>> Session::open(std::uint32_t request_id, OpenModel request) {
-  note_model("open", request_id, request.name);
-  Result<std::shared_ptr<const Pack>> pack = co_await open_pack(request.name);
-  if (pack) {
-    send_answer(answer_open(request_id, request, std::move(*pack)));
-  } else {
-    send_error(pack.error(), request_id);
-  }
-  co_return Result<void>();
-}
-
-/// A get need not wait for an open's answer, nor even follow one. `payload` lives until the next read.
-asio::awaitable<Result<void>> Session::get(std::uint32_t request_id, std::span<const std::byte> payload) {
-  const bool is_small = payload.size() <= kSmallRequest;
-  auto parse_request = [payload] { return parse<GetParts>(payload); };
-  Result<GetParts> request;
-  if (is_small) {
-    request = parse_request();
-  } else {
-    request = co_await on_workers(parse_request);
-  }
-  if (!request) co_return forward_error(request);
-  ++services_.counters.gets;
-  note_model("get", request_id, request->model);
-
-  Result<std::shared_ptr<const Pack>> pack = opened_pack(request->model);
-  if (*pack == nullptr) pack = co_await open_pack(request->model);
-  if (!pack) {
-    send_error(pack.error(), request_id);
-    co_return Result<void>();
-  }
-  auto look_up = [&] { return answer_get(request_id, *request, *pack, limits_); };
-  Result<Answer> answer;
-  if (is_small && (*pack)->directory().regions.size() <= kSmallModel) {
-    answer = look_up();
-  } else {
-    answer = co_await on_workers(look_up);
-  }
-  if (answer) {
-    send_answer(std::move(*answer));
-  } else {
-    send_error(answer.error(), request_id);
-  }
-  co_return Result<void>();
-}
-
-void Session::status(std::uint32_t request_id) { send(answer_status(services_, draining_), request_id); }
-
-std::shared_ptr<const Pack> Session::opened_pack(const std::string& name) const {
-  const auto found = std::ranges::find(opened_, name, &OpenedModel::name);
-  return found == opened_.end() || found->pack->is_damaged() ? nullptr : found->pack;
-}
-
-/// The pack as the store has it now; remembered for the gets to come.
-asio::awaitable<Result<std::shared_ptr<const Pack>>> Session::open_pack(std::string name) {
-  auto look = [&store = services_.store, &name] { return store.open(name); };
-  Result<std::shared_ptr<const Pack>> pack = co_await on_workers(std::move(look));
-  if (pack) {
-    std::erase_if(opened_, [&](const OpenedModel& model) { return model.name == name; });
-    opened_.push_back({std::move(name), *pack});
-    if (opened_.size() > limits_.opened_models) opened_.erase(opened_.begin());
-  }
-  co_return pack;
-}
-
-// ---- sending
-// -------------------------------------------------------------------------------------------------
-
-void Session::send_error(const Error& error, std::uint32_t request_id) {
-  services_.counters.count_error(error.code);
-  note("error", request_id, {{"code", std::string(to_string(error.code))}, {"message", error.message}});
-  send(ErrorMessage{error, is_retryable(error.code)}, request_id);
-}
-
-void Session::send_answer(Answer answer) {
-  const std::uint32_t request_id = answer.request_id;
-  const Result<void> queued = draining_
-                                  ? Result<void>(fail(ErrorCode::Unavailable, "the server is shutting down"))
-                                  : outbox_.push_answer(std::move(answer));
-  if (!queued) send_error(queued.error(), request_id);
-  wake_writer();
-}
-
-/// What is left of answers from packs that were overwritten since would be nonsense.
-void Session::refuse_damaged() {
-  for (std::uint32_t id = outbox_.drop_damaged(); id != 0; id = outbox_.drop_damaged()) {
-    send_error(
-        Error{ErrorCode::BadStream,
-              "the model's pack was overwritten in place while it was served; packs are to be replaced by "
-              "renaming"},
-        id);
-  }
-}
-
-/// Answers to what came together go together. Before waiting for anything the reader lets them go.
-void Session::uncork() {
-  corked_ = false;
-  if (std::exchange(has_news_, false)) wake_writer();
-}
-
-/// There is a writer only while something waits to be written: an idle connection does without, and most
-/// answers do too.
-void Session::wake_writer() {
-  if (corked_) {
-    has_news_ = true;
-  } else if (is_writing_) {
-    rate_pause_.notify();
-  } else if (!ended_ && !write_at_once()) {
-    start_writer(Batch(), 0);
-  }
-}
-
-/// What the kernel takes without waiting needs no coroutine. False if a writer has still something to do.
-bool Session::write_at_once() {
-  if (closing_ || draining_ || outbox_.idle() || !stream_->may_write_at_once()) return false;
-  thread_local Batch batch;
-  is_writing_ = true;
-  refuse_damaged();
-  const auto now = RateLimit::Clock::now();
-  outbox_.take(batch, std::min<std::uint64_t>(stream_->write_size(), rate_.available(now)));
-  rate_.spend(batch.size_bytes());
-  const std::size_t written = stream_->write_at_once(batch.pieces());
-  services_.counters.bytes_sent += written;
-  is_writing_ = false;
-  const bool is_whole = written == batch.size_bytes();
-  if (!is_whole) start_writer(std::exchange(batch, Batch()), written);
-  batch.clear();
-  return !is_whole || outbox_.idle();
-}
-
-/// `batch` goes first, but for the bytes of it that are written.
-void Session::start_writer(Batch batch, std::size_t written) {
-  is_writing_ = true;
-  ++writers_;
-  auto on_end = [this](std::exception_ptr thrown) {
-    --writers_;
-    if (thrown) {
-      is_writing_ = false;
-      thrown_ = thrown;
-      stream_->close();
-    }
-    writer_ended_.notify();
-  };
-  asio::co_spawn(stream_->executor(), write_loop(std::move(batch), written), std::move(on_end));
-}
-
-asio::awaitable<void> Session::write_loop(Batch batch, std::size_t written) {
-  bool is_broken = false;
-  if (!batch.empty()) {
-    const Result<void> rest = co_await write(batch, written);
-    is_broken = !rest;
-  }
-  while (!is_broken) {
-    if (!outbox_.idle()) {
-      set_deadline(write_by_, Deadline::Clock::now() + limits_.write_timeout);
-      const Result<void> is_time = co_await stream_->wait_to_write();
-      set_deadline(write_by_, kNever);
-      is_broken = !is_time;
-      if (is_broken) continue;
-      refuse_damaged();
-    }
-    const auto now = RateLimit::Clock::now();
-    outbox_.take(batch, std::min<std::uint64_t>(stream_->write_size(), rate_.available(now)));
-    if (!batch.empty()) {
-      if (!outbox_.full()) wake_reader_.notify();
-      rate_.spend(batch.size_bytes());
-      const Result<void> all_written = co_await write(batch);
-      is_broken = !all_written;
-      continue;
-    }
-    const auto pause = rate_.wait_for(kBurst, now);
-    if (outbox_.idle() || pause <= RateLimit::Clock::duration::zero()) break;
-    co_await rate_pause_.wait_for(pause);
-  }
-  is_writing_ = false;
-  const bool is_drained = draining_ && outbox_.idle() && !upload_;
-  if (is_broken) {
-    closing_ = true;
-    stream_->close();  // which ends the reader
-  } else if ((closing_ || is_drained) && !sent_all_) {
-    sent_all_ = true;
-    stream_->end_writing();
-    set_deadline(read_by_, Deadline::Clock::now() + kFarewell);
-  }
-  if (closing_) wake_reader_.notify();
-}
-
-asio::awaitable<Result<void>> Session::write(Batch& batch, std::size_t written) {
-  set_deadline(write_by_, Deadline::Clock::now() + limits_.write_timeout);
-  Result<void> all_written = co_await stream_->write(batch.pieces(written));
-  set_deadline(write_by_, kNever);
-  if (all_written) services_.counters.bytes_sent += batch.size_bytes() - written;
-  co_return all_written;
 }
 
 }  // namespace selvage

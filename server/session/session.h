@@ -52,6 +52,8 @@ class Session {
 
  private:
   static constexpr auto kNever = Deadline::Clock::time_point::max();
+  /// With a limit on the rate this much may go at once, and a write waits until it may carry as much.
+  static constexpr std::uint64_t kBurst = 64u << 10;
 
   void watch_deadlines();
   void on_deadline();
