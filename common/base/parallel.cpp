@@ -6,6 +6,8 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "common/base/handover.h"
+
 namespace selvage {
 
 ParallelFor serial_for() {
@@ -19,7 +21,15 @@ ParallelFor threaded_for(unsigned threads) {
   const int concurrency = threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads);
   auto arena = std::make_shared<tbb::task_arena>(concurrency);
   return [arena](std::size_t count, const std::function<void(std::size_t)>& body) {
-    arena->execute([&] { tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { body(i); }); });
+    Handover begun, done;
+    begun.give();
+    const auto run = [&](std::size_t i) {
+      begun.take();
+      body(i);
+      done.give();
+    };
+    arena->execute([&] { tbb::parallel_for(std::size_t{0}, count, run); });
+    done.take();
   };
 }
 

@@ -6,11 +6,14 @@
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
+#include "common/base/handover.h"
+
 namespace selvage {
 
 struct TaskGroup::Impl {
   tbb::task_arena arena;
   tbb::task_group group;
+  Handover begun, done;
 };
 
 TaskGroup::TaskGroup(unsigned threads) {
@@ -27,11 +30,19 @@ TaskGroup::~TaskGroup() {
 
 void TaskGroup::run(std::function<void()> task) {
   if (!impl_) return task();
-  impl_->arena.enqueue(impl_->group.defer(std::move(task)));
+  impl_->begun.give();
+  auto run = [impl = impl_.get(), task = std::move(task)] {
+    impl->begun.take();
+    task();
+    impl->done.give();
+  };
+  impl_->arena.enqueue(impl_->group.defer(std::move(run)));
 }
 
 void TaskGroup::wait() {
-  if (impl_) impl_->arena.execute([&] { impl_->group.wait(); });
+  if (!impl_) return;
+  impl_->arena.execute([&] { impl_->group.wait(); });
+  impl_->done.take();
 }
 
 }  // namespace selvage

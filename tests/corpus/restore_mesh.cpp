@@ -182,7 +182,8 @@ Result<Restoration> restore_mesh(const std::filesystem::path& path, std::uint32_
   auto file = read_mesh(path);
   if (!file) return forward_error(file);
   const auto begin = Clock::now();
-  IngestOptions options{.name = kModel};
+  IngestOptions options;
+  options.name = kModel;
   options.levels = usual_levels(3);
   auto model = ingest(file->soup, options, threaded_for(0), [](const std::string&, double) { return true; });
   if (!model) return forward_error(model, path.string());

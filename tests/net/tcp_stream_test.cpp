@@ -3,6 +3,7 @@
 // TCP over loopback: what is copied and what is handed over page by page arrive as one stream.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <random>
 
@@ -120,9 +121,8 @@ TEST(TcpStream, SendsZerosForWhatAFileHasNoMore) {
   pieces.emplace_back(file->bytes().last(1000), true);
   const std::vector<std::byte> received = carry(pieces);
   EXPECT_TRUE(file->is_damaged());
-  std::vector<std::byte> expected(5000);
-  expected.insert(expected.end(), bytes.begin(), bytes.begin() + kKept);
-  expected.resize(5000 + bytes.size() + 1000);
+  std::vector<std::byte> expected(5000 + bytes.size() + 1000);
+  std::copy_n(bytes.begin(), kKept, expected.begin() + 5000);
   EXPECT_TRUE(received == expected) << received.size() << " bytes";
 }
 
