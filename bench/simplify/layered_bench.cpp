@@ -1,193 +1,109 @@
 // SPDX-License-Identifier: MIT
 //
-// Would levels that build on one another take fewer bytes than levels that stand alone?
+// Do levels that build on one another take fewer bytes than levels that stand alone, and how long do they
+// take to decode?
 //
-//   layered_bench MODEL...                40 regions, levels of 50, 25, 12.5 and 6.25 % of the triangles
-//   layered_bench --regions 20 MODEL...
+//   layered_bench MODEL MODEL...          40 regions, levels of 50, 25, 12.5 and 6.25 % of the triangles
+//   layered_bench --regions 20 MODEL MODEL...
 //
-// On grids of 12 and 14 bits: bytes of the pack with five levels over those with one, as they are coded, and
-// as an estimate of levels each coded with the next coarser one at hand (refinement_cost.h). The estimate
-// leaves the coarsest level, joins, connectivity, boundary maps and the directory at what they take now. Its
-// positions are held against the codec's own on the finest level, with nothing known.
+// On grids of 12 and 14 bits, with tables trained on the other models of the command line.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <mutex>
+#include <cstring>
 #include <string>
+#include <vector>
 
-#include "bench/simplify/labelled_levels.h"
-#include "bench/simplify/refinement_cost.h"
-#include "common/base/parallel.h"
-#include "common/pack/pack.h"
-#include "server/encode/model_encoder.h"
-#include "server/simplify/model_levels.h"
+#include "bench/simplify/layered/refinement_training.h"
+#include "bench/support/critical_path.h"
 
 namespace selvage::bench {
 namespace {
 
-/// Of the parts of one level, bits.
-struct CodedBits {
-  double connectivity = 0, positions = 0, boundary_map = 0, bytes = 0;
+struct Subject {
+  std::string name;
+  int bits;
+  LayeredModel model;
 };
 
-struct Model {
-  LabelledMesh mesh;
-  Grid grid;
-  std::vector<GridPoint> positions;
-  Partition partition;
-  LevelledMesh levels;
+struct Sum {
+  double closed = 0, open = 0, rank = 0, run = 0, position = 0, plain = 0, low_bits = 0;
+  double splits = 0, asks = 0;
 };
 
-Model make_model(const LabelledMesh& mesh, int bits) {
-  Model model{mesh, make_grid(mesh.positions, bits), {}, {}, {}};
-  for (const Vec3& p : mesh.positions) model.positions.push_back(model.grid.quantise(p));
-  const auto& segmentation = mesh.segmentation;
-  model.partition = make_partition(mesh.table, segmentation.region_of_vertex, segmentation.region_count);
-  std::vector<LevelTarget> targets;
-  for (const double ratio : kRatios)
-    targets.push_back({static_cast<std::uint32_t>(ratio * mesh.table.triangle_count())});
-  model.levels = make_model_levels(
-      {mesh.table, model.positions, segmentation.region_of_vertex, segmentation.region_count}, targets,
-      serial_for());
-  return model;
-}
-
-CodedBits sorted_bits(std::span<const Token> tokens, double plain_bits) {
-  SymbolModels models(shipped_tables().region);
-  CodedBits bits{.positions = plain_bits};
-  for (const Token& token : tokens) {
+void add_bits(const EntropyEncoder& coded, const RefinementTables& tables, Sum& sum) {
+  using namespace refinement_model;
+  SymbolModels models(tables.models);
+  for (const Token& token : coded.tokens()) {
     const double cost = kProbabilityBits - std::log2(models.range(token.model, token.symbol).frequency);
     models.update(token.model, token.symbol);
-    using namespace region_model;
-    const bool is_position = (token.model >= kMagnitude && token.model < kFields) || token.model == kExcess ||
-                             token.model == kTangent;
-    const bool is_map = token.model >= kMapLoop && token.model <= kMapExcess;
-    (is_position ? bits.positions : is_map ? bits.boundary_map : bits.connectivity) += cost;
+    (token.model < kClosed      ? sum.position
+     : token.model < kOpen      ? sum.closed
+     : token.model < kRank      ? sum.open
+     : token.model < kBoundaryRun ? sum.rank
+                                  : sum.run) += cost;
+    sum.asks += token.model >= kClosed && token.model < kOpenSpan;
   }
-  return bits;
+  sum.plain += coded.plain_bits();
 }
 
-/// Bytes of the pack, and the bits of each level's parts if asked for.
-double pack_size(const Model& model, bool has_levels, std::vector<CodedBits>* levels) {
-  const std::vector<VertexId> no_sources;
-  const std::vector<bool> is_turned(model.mesh.table.triangle_count(), false);
-  const ModelSource source{model.mesh.table,
-                           model.mesh.positions,
-                           no_sources,
-                           is_turned,
-                           model.partition,
-                           false,
-                           has_levels ? &model.levels : nullptr};
-  EncodeHooks hooks;
-  if (levels != nullptr) {
-    levels->assign(kLevels, {});
-    hooks.on_symbols = [&](const PartId& id, std::span<const Token> tokens, double plain_bits) {
-      if (id.kind != PartKind::Region) return;
-      const CodedBits bits = sorted_bits(tokens, plain_bits);
-      CodedBits& sum = (*levels)[id.level];
-      sum.connectivity += bits.connectivity;
-      sum.positions += bits.positions;
-      sum.boundary_map += bits.boundary_map;
-    };
+void measure(const Subject& subject, const RefinementTables& tables) {
+  const LayeredModel& model = subject.model;
+  std::size_t alone = 0, layered = 0, base = 0;
+  std::vector<std::vector<Bytes>> parts;
+  Sum sum;
+  for (const LayeredRegion& region : model.regions) {
+    std::vector<EntropyEncoder> symbols;
+    parts.push_back(encode_layers(region, tables, nullptr, &symbols));
+    for (const EntropyEncoder& coded : symbols) add_bits(coded, tables, sum);
+    for (const Layer& layer : region.layers) sum.splits += static_cast<double>(layer.splits.size());
+    for (std::size_t level = 0; level + 1 < kLevels; ++level)
+      sum.low_bits += 3.0 * (region.sizes[level + 1].dropped_bits - region.sizes[level].dropped_bits) * region.sizes[level + 1].vertices;
+    for (const Bytes& part : region.alone) alone += part.size();
+    for (const Bytes& part : parts.back()) layered += part.size() + !part.empty();
+    base += region.base.size();
   }
-  auto encoded = encode_model(
-                     source, model.grid, serial_for(), [] {}, hooks)
-                     .value();
-  return static_cast<double>(assemble_pack(std::move(encoded.directory), encoded.parts).size());
-}
+  const double one = static_cast<double>(model.one_level_bytes), five = static_cast<double>(model.alone_bytes);
+  const double now = five - static_cast<double>(alone) + static_cast<double>(layered + base);
+  std::printf("%s, %d bits, %zu regions: pack over one level: alone %.3f, layered %.3f, ratio %.3f (%d levels refined)\n",
+              subject.name.c_str(), subject.bits, model.regions.size(), five / one, now / one, now / five, model.refined_precisions);
+  std::printf("  bits a split: closed %.2f open %.2f rank %.2f run %.2f positions %.2f + plain %.2f; low bits %.2f; asks %.2f; base part %.3f\n",
+              sum.closed / sum.splits, sum.open / sum.splits, sum.rank / sum.splits, sum.run / sum.splits,
+              sum.position / sum.splits, (sum.plain - sum.low_bits) / sum.splits, sum.low_bits / sum.splits, sum.asks / sum.splits, static_cast<double>(base) / one);
 
-/// A region at a level, for the coarser one that it is refined from; without one, for the codec's own task.
-Refinement cut_out(const Model& model, RegionId region, std::uint32_t level, std::uint32_t coarser) {
-  const auto& representative = model.levels.representative_of_vertex[level];
-  const RegionLevel& fine = model.levels.regions[level][region];
-  std::vector<std::uint32_t> local_vertex(model.positions.size(), kNone);
-  std::vector<std::uint32_t> local_triangle(model.mesh.table.triangle_count(), kNone);
-  for (std::uint32_t i = 0; i < fine.vertices.size(); ++i) local_vertex[fine.vertices[i]] = i;
-  for (std::uint32_t i = 0; i < fine.triangles.size(); ++i) local_triangle[fine.triangles[i]] = i;
-  Refinement cut;
-  for (const TriangleId t : fine.triangles) {
-    for (CornerId c = 3 * t; c < 3 * t + 3; ++c) {
-      cut.table.vertex_of_corner.push_back(local_vertex[representative[model.mesh.table.vertex(c)]]);
-      const CornerId across = corner_across(model.mesh.table, representative, c);
-      const std::uint32_t local = across == kNone ? kNone : local_triangle[triangle_of(across)];
-      cut.table.opposite.push_back(local == kNone ? kNone : 3 * local + across % 3);
+  // Decoding.
+  RegionDecoder decoder;
+  double best_finest = 1e9, best_all = 1e9, best_layered = 1e9;
+  std::size_t check = 0;
+  for (int round = 0; round < 7; ++round) {
+    double start = thread_cpu_ms();
+    for (const LayeredRegion& region : model.regions)
+      check += decoder.decode(region.alone[0], region.alone_limits[0]).value().positions.size();
+    best_finest = std::min(best_finest, thread_cpu_ms() - start);
+    start = thread_cpu_ms();
+    for (const LayeredRegion& region : model.regions) {
+      for (std::size_t level = kLevels; level-- > 0;) {
+        if (!region.alone[level].empty())
+          check += decoder.decode(region.alone[level], region.alone_limits[level]).value().positions.size();
+      }
     }
+    best_all = std::min(best_all, thread_cpu_ms() - start);
+    start = thread_cpu_ms();
+    for (std::size_t i = 0; i < model.regions.size(); ++i) {
+      const LayeredRegion& region = model.regions[i];
+      const RegionMesh base_mesh = decoder.decode(region.base, region.base_limits).value();
+      GrowingRegion growing = start_growing(base_mesh, region.loop_lengths, region.sizes.back(), region.sizes.front());
+      for (std::size_t level = kLevels - 1; level-- > 0;) {
+        if (parts[i][level].empty()) continue;
+        if (!decode_layer(parts[i][level], region.sizes[level + 1], region.sizes[level], level == 0, tables, growing))
+          std::fprintf(stderr, "does not decode\n"), std::abort();
+      }
+      check += grown(growing, region.loop_lengths, region.sizes[0]).positions.size();
+    }
+    best_layered = std::min(best_layered, thread_cpu_ms() - start);
   }
-  cut.table.set_corner_of_vertex(static_cast<std::uint32_t>(fine.vertices.size()));
-  for (const VertexId v : fine.vertices) {
-    const GridPoint& p = model.positions[v];
-    cut.positions.push_back({double(p.x >> fine.dropped_bits), double(p.y >> fine.dropped_bits),
-                             double(p.z >> fine.dropped_bits)});
-    cut.representative.push_back(
-        coarser < kLevels ? local_vertex[model.levels.representative_of_vertex[coarser][v]] : kNone);
-  }
-  return cut;
-}
-
-/// What the positions of a level take with a coarser one at hand, and all it takes to know which vertex is
-/// which.
-struct LayeredBits {
-  RefinementBits refinement;
-  double low_bits = 0;  ///< of the positions that the coarser level has
-  double all(double alike) const {
-    return refinement.kept_flags + refinement.targets + low_bits + refinement.positions / alike;
-  }
-};
-
-LayeredBits layered_bits(const Model& model, std::uint32_t level, std::uint32_t coarser) {
-  std::vector<Refinement> refined;
-  LayeredBits bits;
-  for (RegionId region = 1; region <= model.partition.region_count; ++region) {
-    const RegionLevel &fine = model.levels.regions[level][region],
-                      &coarse = model.levels.regions[coarser][region];
-    if (level > 0 && fine.is_repeat) continue;
-    refined.push_back(cut_out(model, region, level, coarser));
-    bits.low_bits += 3.0 * std::max(0, coarse.dropped_bits - fine.dropped_bits) *
-                     static_cast<double>(coarse.vertices.size());
-  }
-  bits.refinement = refinement_bits(refined);
-  return bits;
-}
-
-/// The estimate's positions over the codec's, on the finest level with nothing known.
-double likeness(const Model& model, const CodedBits& finest) {
-  std::vector<Refinement> whole;
-  for (RegionId region = 1; region <= model.partition.region_count; ++region)
-    whole.push_back(cut_out(model, region, 0, kLevels));
-  return refinement_bits(whole).positions / finest.positions;
-}
-
-void print(std::uint32_t level, const CodedBits& coded, const LayeredBits& layered, double alike) {
-  const RefinementBits& bits = layered.refinement;
-  std::printf(
-      "  level %u, bits a vertex: connectivity %.2f, positions %.2f; layered: flags %.2f, targets %.2f, low "
-      "bits "
-      "%.2f, positions %.2f (%.2f a new one)\n",
-      level, coded.connectivity / bits.vertices, coded.positions / bits.vertices,
-      bits.kept_flags / bits.vertices, bits.targets / bits.vertices, layered.low_bits / bits.vertices,
-      bits.positions / alike / bits.vertices, bits.positions / alike / bits.new_vertices);
-}
-
-void measure(const LabelledMesh& mesh, const std::string& name, int bits) {
-  const Model model = make_model(mesh, bits);
-  std::vector<CodedBits> coded;
-  const double one = pack_size(model, false, nullptr), five = pack_size(model, true, &coded);
-  const double alike = likeness(model, coded[0]);
-  double layered = five;
-  std::vector<LayeredBits> layers;
-  for (std::uint32_t level = 0; level + 1 < kLevels; ++level) {
-    layers.push_back(layered_bits(model, level, level + 1));
-    layered -= (coded[level].positions - layers[level].all(alike)) / 8;
-  }
-  const double two_alone = coded[3].connectivity + coded[3].positions + coded[3].boundary_map;
-  const double two_saved = coded[0].positions - layered_bits(model, 0, 3).all(alike);
-  std::printf(
-      "%s, %d bits, %u regions: over one level, five alone %.3f, layered %.3f; with 12.5 %% only, alone "
-      "%.3f, layered "
-      "%.3f; the estimate's positions over the codec's %.3f\n",
-      name.c_str(), bits, model.partition.region_count, five / one, layered / one, 1 + two_alone / 8 / one,
-      1 + (two_alone - two_saved) / 8 / one, alike);
-  for (std::uint32_t level = 0; level + 1 < kLevels; ++level)
-    print(level, coded[level], layers[level], alike);
+  std::printf("  decode ms: finest alone %.2f, five alone %.2f, layered %.2f: %.2f, %.2f times (%zu)\n", best_finest, best_all, best_layered,
+              best_layered / best_finest, best_layered / best_all, check);
   std::fflush(stdout);
 }
 
@@ -197,7 +113,7 @@ void measure(const LabelledMesh& mesh, const std::string& name, int bits) {
 int main(int argc, char** argv) {
   using namespace selvage::bench;
   std::uint32_t regions = 40;
-  int models = 0;
+  std::vector<Subject> subjects;
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
     if (argument == "--regions" && i + 1 < argc) {
@@ -206,8 +122,16 @@ int main(int argc, char** argv) {
     }
     const auto mesh = load_labelled(argument, regions);
     if (!mesh) return 1;
-    for (const int bits : {12, 14}) measure(*mesh, argument.substr(argument.find_last_of('/') + 1), bits);
-    ++models;
+    for (const int bits : {12, 14})
+      subjects.push_back({argument.substr(argument.find_last_of('/') + 1), bits, make_layered_model(*mesh, bits)});
   }
-  return models > 0 ? 0 : (std::fprintf(stderr, "usage: layered_bench [--regions N] MODEL...\n"), 2);
+  for (const Subject& subject : subjects) {
+    std::vector<const LayeredModel*> others;
+    for (const Subject& other : subjects) {
+      if (other.name != subject.name) others.push_back(&other.model);
+    }
+    if (others.empty()) others.push_back(&subject.model);
+    measure(subject, train_refinement(others));
+  }
+  return subjects.empty() ? 2 : 0;
 }
