@@ -75,7 +75,7 @@ void measure(const Subject& subject, const RefinementTables& tables) {
   RegionDecoder decoder;
   double best_finest = 1e9, best_all = 1e9, best_layered = 1e9;
   std::size_t check = 0;
-  for (int round = 0; round < 7; ++round) {
+  for (int round = 0; round < (std::getenv("LAYERED_ROUNDS") ? std::atoi(std::getenv("LAYERED_ROUNDS")) : 7); ++round) {
     double start = thread_cpu_ms();
     for (const LayeredRegion& region : model.regions)
       check += decoder.decode(region.alone[0], region.alone_limits[0]).value().positions.size();

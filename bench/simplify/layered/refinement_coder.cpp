@@ -32,10 +32,10 @@ class LayerDecoder {
 
   EntropyDecoder& in() { return in_; }
 
-  WantedSplit wanted(VertexId, const SplitMesh::Star&) { return {}; }
+  WantedSplit wanted(VertexId) { return {}; }
   unsigned symbol(unsigned model, unsigned) { return in_.symbol(model); }
   std::uint32_t number(unsigned model, std::uint32_t) { return in_.number(model); }
-  void is_split(VertexId, const SplitMesh::Star&, const WantedSplit&, std::uint32_t) {}
+  void is_split(std::uint32_t) {}
 
   [[gnu::always_inline]] IntLanes position(const Predictor& sizes, const Surroundings& around,
                                            const PlaceModel::Features&, const NewRing&,
@@ -163,12 +163,13 @@ EntropyEncoder LayerEncoder::encode(const std::vector<PlannedSplit>& splits, con
   return std::move(out_);
 }
 
-WantedSplit LayerEncoder::wanted(VertexId v, const SplitMesh::Star& star) {
+WantedSplit LayerEncoder::wanted(VertexId v) {
   for (const std::uint32_t i : ready_) {
     const PlannedSplit& planned = (*splits_)[i];
     const CornerId first = local_of_corner_[planned.first], last = local_of_corner_[planned.last];
     if (region_.mesh.vertex(first) != v) continue;
     current_ = i;
+    const SplitMesh::Star star = region_.mesh.star(v);
     const auto place = [&](CornerId c) {
       return static_cast<std::uint32_t>(std::find(star.corners, star.corners + star.size, c) - star.corners);
     };
@@ -225,7 +226,7 @@ IntLanes LayerEncoder::position(const Predictor& sizes, const Surroundings& arou
   return position;
 }
 
-void LayerEncoder::is_split(VertexId, const SplitMesh::Star&, const WantedSplit&, std::uint32_t triangles) {
+void LayerEncoder::is_split(std::uint32_t triangles) {
   const PlannedSplit& planned = (*splits_)[current_];
   source_of_vertex_.push_back(planned.from);
   CornerId t = 4 * triangles;

@@ -56,12 +56,12 @@ class LayerEncoder {
   const std::vector<VertexId>& source_of_vertex() const { return source_of_vertex_; }
 
   // What the walk asks.
-  WantedSplit wanted(VertexId v, const SplitMesh::Star& star);
+  WantedSplit wanted(VertexId v);
   unsigned symbol(unsigned model, unsigned value) { return out_.symbol(model, value), value; }
   std::uint32_t number(unsigned model, std::uint32_t value) { return out_.number(model, value), value; }
   IntLanes position(const Predictor& sizes, const Surroundings& around, const PlaceModel::Features& features,
                     const NewRing& ring, std::uint32_t& tangential, std::uint32_t& normal);
-  void is_split(VertexId v, const SplitMesh::Star& star, const WantedSplit& split, std::uint32_t triangles);
+  void is_split(std::uint32_t triangles);
 
  private:
   GrowingRegion& region_;

@@ -12,13 +12,13 @@
 namespace selvage::bench {
 
 namespace refinement_model {
-inline constexpr unsigned kHistories = 4, kDegrees = 8, kBadnesses = 8;
+inline constexpr unsigned kHistories = 4, kDegrees = 8;
 inline constexpr unsigned kRuns = 3;  ///< boundary indices that a vertex stands for: 1, 2, more; or inside
 enum Field : unsigned {
   kMagnitude = 0,  ///< as in a region part
   kExcess = 3 * 2 * region_model::kMagnitudes,
-  kClosed,  ///< + is_finest, history, degree, badness: triangles that go to a new vertex, 0 if none does
-  kOpen = kClosed + 2 * kHistories * kDegrees * kBadnesses,  ///< + is_finest, run, history, degree: SplitKind
+  kClosed,  ///< + is_finest, history, degree: triangles that go to a new vertex, 0 if none does
+  kOpen = kClosed + 2 * kHistories * kDegrees,  ///< + is_finest, run, history, degree: SplitKind
   kOpenSpan = kOpen + 2 * kRuns * kHistories * kDegrees,     ///< + kind, degree
   kRank = kOpenSpan + 4 * kDegrees,  ///< + span, candidates: which of the places for such a run
   kBoundaryRun = kRank + 8 * 8,      ///< + run: boundary indices that the new vertex takes, less one

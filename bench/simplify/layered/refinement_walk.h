@@ -9,8 +9,10 @@
 // triangle came to. Nothing else can have become possible by it. When the queue is empty the level is done.
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cstdint>
+#include <cstdlib>
+#include <limits>
 #include <vector>
 
 #include "bench/simplify/layered/new_vertex.h"
@@ -23,9 +25,10 @@ namespace selvage::bench {
 /// A region between two levels. Coordinates lack the low bits that the level in hand drops.
 struct GrowingRegion {
   GrowingRegion(const CornerTable& base, std::uint32_t vertices, std::uint32_t triangles)
-      : mesh(base, vertices, triangles), position(vertices), run(vertices),
-        cotangent(4 * std::size_t{triangles}), history(vertices), is_queued(vertices),
-        badness(triangles + 1), place(triangles + 1) {}
+      : mesh(base, vertices, triangles), position(vertices), run(vertices), state(vertices) {
+    for (const VertexId v : base.vertex_of_corner) ++state[v].degree;
+    queue.reserve(vertices);
+  }
 
   SplitMesh mesh;
   std::vector<IntLanes> position;
@@ -34,13 +37,17 @@ struct GrowingRegion {
     std::uint32_t loop = 0, begin = 0, length = 0;
   };
   std::vector<BoundaryRun> run;
-  std::vector<float> cotangent;      ///< by corner; of the triangle as it was when it last changed
 
   // Of the walk.
-  std::vector<std::uint8_t> history, is_queued;
+  enum History : std::uint8_t { NotAsked, LeftAlone, Split, New };
+  struct VertexState {
+    std::uint32_t degree = 0;  ///< triangles
+    std::uint8_t history = NotAsked;
+    bool is_queued = false;
+    bool is_open = false;
+  };
+  std::vector<VertexState> state;
   std::vector<VertexId> queue;
-  std::vector<float> badness;
-  std::vector<std::uint32_t> place;
 };
 
 struct WantedSplit {
@@ -58,14 +65,20 @@ class RefinementWalk {
 
   /// False if the stream is corrupt.
   bool run() {
-    const VertexId coarse = mesh_.vertex_count();
-    region_.queue.resize(coarse);
-    for (VertexId v = 0; v < coarse; ++v) region_.queue[v] = v, region_.history[v] = 0, region_.is_queued[v] = 1;
-    measure_all();
-    for (std::size_t head = 0; head < region_.queue.size(); ++head) {
-      const VertexId v = region_.queue[head];
-      region_.is_queued[v] = 0;
-      if (!ask(v)) return false;
+    std::vector<VertexId>& queue = region_.queue;
+    queue.clear();
+    for (VertexId v = 0; v < mesh_.vertex_count(); ++v) {
+      GrowingRegion::VertexState& state = region_.state[v];
+      state.history = GrowingRegion::NotAsked;
+      state.is_queued = true;
+      state.is_open = region_.run[v].length > 0;
+      queue.push_back(v);
+    }
+    place_.start(log_size(mean_edge()));
+    for (std::size_t head = 0; head < queue.size(); ++head) {
+      const VertexId v = queue[head];
+      region_.state[v].is_queued = false;
+      if (!(region_.state[v].is_open ? ask_open(v) : ask_closed(v))) return false;
     }
     return mesh_.vertex_count() == vertices_ && mesh_.triangle_count() == triangles_;
   }
@@ -75,72 +88,66 @@ class RefinementWalk {
     return {tables.models, {}, {}, tables.size};
   }
 
-  void measure(std::uint32_t t) {
-    const IntLanes a = at(4 * t), b = at(4 * t + 1), c = at(4 * t + 2);
-    const FloatLanes ab = to_float(b - a), bc = to_float(c - b), ca = to_float(a - c);
-    const FloatLanes normal = cross(ab, ca);
-    const float area = __builtin_sqrtf(dot3(normal, normal));
-    const float scale = area > 0 ? -1.0F / area : 0;
-    region_.cotangent[4 * t] = dot3(ab, ca) * scale;
-    region_.cotangent[4 * t + 1] = dot3(ab, bc) * scale;
-    region_.cotangent[4 * t + 2] = dot3(bc, ca) * scale;
-  }
   IntLanes at(CornerId c) const { return region_.position[mesh_.vertex(c)]; }
 
-  void measure_all() {
+  /// About: of one edge a triangle, the sum over the axes.
+  std::uint64_t mean_edge() const {
     std::int64_t sum = 0;
     for (std::uint32_t t = 0; t < mesh_.triangle_count(); ++t) {
-      measure(t);
-      const FloatLanes edge = absolute(to_float(at(4 * t) - at(4 * t + 1)));
-      sum += static_cast<std::int64_t>(edge[0] + edge[1] + edge[2]);
+      const IntLanes edge = at(4 * t) - at(4 * t + 1);
+      sum += std::abs(edge[0]) + std::abs(edge[1]) + std::abs(edge[2]);
     }
-    place_.start(log_size(static_cast<std::uint64_t>(sum) / (mesh_.triangle_count() + 1)));
+    return static_cast<std::uint64_t>(sum) / (mesh_.triangle_count() + 1);
   }
 
-  void push(VertexId v, std::uint8_t history) {
-    region_.history[v] = history;
-    if (region_.is_queued[v]) return;
-    region_.is_queued[v] = 1;
+  /// A triangle more at v, which may let it be split.
+  void touch(VertexId v) {
+    ++region_.state[v].degree;
+    enqueue(v);
+  }
+  void enqueue(VertexId v) {
+    if (region_.state[v].is_queued) return;
+    region_.state[v].is_queued = true;
     region_.queue.push_back(v);
   }
 
-  bool ask(VertexId v) {
+  bool ask_closed(VertexId v) {
     using namespace refinement_model;
-    const SplitMesh::Star star = mesh_.star(v);
-    const float worst = look_at_spokes(v, star);
-    const WantedSplit wanted = side_.wanted(v, star);
-    WantedSplit split;
-    const unsigned history = region_.history[v];
-    const unsigned degree = std::clamp(star.size, 3u, 2 + kDegrees) - 3;
-    if (star.is_open) {
-      const unsigned runs = std::min(region_.run[v].length, kRuns) - 1;
-      const unsigned open_degree = std::clamp(star.size, 1u, kDegrees) - 1;
-      const unsigned kind = side_.symbol(kOpen + ((is_finest_ * kRuns + runs) * kHistories + history) * kDegrees + open_degree,
-                                         static_cast<unsigned>(wanted.kind));
-      if (kind > 3) return false;
-      split.kind = static_cast<SplitKind>(kind);
-      if (kind == 0) return refuse(v);
-      if (split.kind != SplitKind::Inner && region_.run[v].length < 2) return false;
-      const unsigned least = split.kind == SplitKind::Inner;
-      split.span = span_of(kOpenSpan + kind * kDegrees + open_degree, wanted.span - least) + least;
-      if (split.span > star.size) return false;
-      if (split.kind == SplitKind::AtEnd) split.begin = star.size - split.span;
-    } else {
-      const unsigned badness = badness_class(worst);
-      const unsigned context = ((is_finest_ * kHistories + history) * kDegrees + degree) * kBadnesses + badness;
-      split.span = span_of(kClosed + context, wanted.span);
-      if (split.span == 0) return refuse(v);
-      split.kind = SplitKind::Inner;
-      if (split.span >= star.size) return false;
+    GrowingRegion::VertexState& state = region_.state[v];
+    const WantedSplit wanted = side_.wanted(v);
+    const unsigned degree = std::clamp(state.degree, 3u, 2 + kDegrees) - 3;
+    WantedSplit split{.kind = SplitKind::Inner};
+    split.span = span_of(kClosed + (is_finest_ * kHistories + state.history) * kDegrees + degree, wanted.span);
+    if (split.span == 0) {
+      state.history = GrowingRegion::LeftAlone;
+      return true;
     }
-    if (split.kind == SplitKind::Inner && !choose_begin(star, wanted, split)) return false;
-    if (split.kind != SplitKind::Inner && !choose_run(v, wanted, split)) return false;
-    return grow(v, star, split);
+    if (split.span >= state.degree) return false;
+    const SplitMesh::Star star = mesh_.star(v);
+    return choose_begin(v, star, wanted, split) && grow(v, star, split);
   }
 
-  bool refuse(VertexId v) {
-    region_.history[v] = 1;
-    return true;
+  bool ask_open(VertexId v) {
+    using namespace refinement_model;
+    GrowingRegion::VertexState& state = region_.state[v];
+    const WantedSplit wanted = side_.wanted(v);
+    const unsigned runs = std::min(region_.run[v].length, kRuns) - 1;
+    const unsigned degree = std::clamp(state.degree, 1u, kDegrees) - 1;
+    const unsigned context = ((is_finest_ * kRuns + runs) * kHistories + state.history) * kDegrees + degree;
+    const unsigned kind = side_.symbol(kOpen + context, static_cast<unsigned>(wanted.kind));
+    if (kind == 0) {
+      state.history = GrowingRegion::LeftAlone;
+      return true;
+    }
+    if (kind > 3) return false;
+    WantedSplit split{.kind = static_cast<SplitKind>(kind)};
+    const bool is_inner = split.kind == SplitKind::Inner;
+    split.span = span_of(kOpenSpan + kind * kDegrees + degree, wanted.span - is_inner) + is_inner;
+    if (split.span > state.degree) return false;
+    const SplitMesh::Star star = mesh_.star(v);
+    if (split.kind == SplitKind::AtEnd) split.begin = star.size - split.span;
+    return (is_inner ? choose_begin(v, star, wanted, split) : choose_run(v, wanted, split)) &&
+           grow(v, star, split);
   }
 
   std::uint32_t span_of(unsigned model, std::uint32_t wanted) {
@@ -148,83 +155,52 @@ class RefinementWalk {
     return symbol < 15 ? symbol : 15 + side_.number(refinement_model::kSpanExcess, wanted - 15);
   }
 
-  /// Of each spoke how much it looks like one that a collapse has made; gives the worst one's.
-  float look_at_spokes(VertexId v, const SplitMesh::Star& star) {
-    const IntLanes centre = region_.position[v];
-    float sum = 0;
-    for (std::uint32_t i = 0; i < star.size; ++i) {
-      const FloatLanes spoke = to_float(at(SplitMesh::next(star.corners[i])) - centre);
-      const float square = dot3(spoke, spoke);
-      region_.badness[i] = square;
-      sum += square;
-    }
-    const float scale = sum > 0 ? static_cast<float>(star.size) / sum : 0;
-    float worst = -100;
-    CornerId before = star.is_open ? kNone : star.corners[star.size - 1];
-    for (std::uint32_t i = 0; i < star.size; ++i) {
-      const CornerId c = star.corners[i];
-      float badness = region_.badness[i] * scale;
-      if (before != kNone) {
-        const float sharp =
-            region_.cotangent[SplitMesh::prev(c)] + region_.cotangent[SplitMesh::next(before)];
-        badness -= std::clamp(sharp, -2.0F, 2.0F);
-        worst = std::max(worst, badness);
-      }
-      region_.badness[i] = badness;
-      before = c;
-    }
-    return worst;
-  }
-
-  static unsigned badness_class(float worst) {
-    constexpr float kSteps[] = {0.4F, 0.8F, 1.2F, 1.6F, 2.2F, 2.9F, 3.8F};
-    unsigned n = 0;
-    for (const float step : kSteps) n += worst > step;
-    return n;
-  }
-
-  /// Which run of so many triangles: those with the worst spokes inside come first.
-  bool choose_begin(const SplitMesh::Star& star, const WantedSplit& wanted, WantedSplit& split) {
+  /// Which run of so many triangles: those with the longest edges inside come first, and short ones at their
+  /// ends, as a collapse draws edges out.
+  bool choose_begin(VertexId v, const SplitMesh::Star& star, const WantedSplit& wanted, WantedSplit& split) {
     using namespace refinement_model;
     const std::uint32_t candidates = star.is_open ? star.size - split.span + 1 : star.size;
-    float* score = scores_.make(candidates);
-    const auto wrapped = [&](std::uint32_t i) { return i < star.size ? i : i - star.size; };
-    for (std::uint32_t i = 0; i < candidates; ++i) {
-      float sum = 0;
-      for (std::uint32_t j = 1; j < split.span; ++j) sum += region_.badness[wrapped(i + j)];
-      sum -= 0.5F * region_.badness[i];
-      if (!star.is_open || i + split.span < star.size) sum -= 0.5F * region_.badness[wrapped(i + split.span)];
-      score[i] = sum;
+    if (candidates == 1) return true;
+    // Squared lengths, and their sums from the first on, round and round.
+    const std::uint32_t end = candidates + split.span;
+    float *length = lengths_.make(end + 1), *sum = sums_.make(end + 1), *score = scores_.make(candidates);
+    const IntLanes centre = region_.position[v];
+    for (std::uint32_t i = 0; i < star.size; ++i) length[i] = square(at(SplitMesh::next(star.corners[i])) - centre);
+    if (star.is_open) {
+      length[star.size] = square(at(SplitMesh::prev(star.corners[star.size - 1])) - centre);
+    } else {
+      for (std::uint32_t i = star.size; i < end; ++i) length[i] = length[i - star.size];
     }
-    const auto comes_before = [&](std::uint32_t i, std::uint32_t j) {
-      return score[i] > score[j] || (score[i] == score[j] && i < j);
-    };
+    sum[0] = 0;
+    for (std::uint32_t i = 0; i < end; ++i) sum[i + 1] = sum[i] + length[i];
+    for (std::uint32_t i = 0; i < candidates; ++i)
+      score[i] = sum[i + split.span] - sum[i + 1] - 0.5F * (length[i] + length[i + split.span]);
+
     std::uint32_t wanted_rank = 0;
-    if (wanted.kind != SplitKind::None) {
-      for (std::uint32_t i = 0; i < candidates; ++i) wanted_rank += comes_before(i, wanted.begin);
-    }
-    const unsigned model = kRank + (std::min(split.span, 8u) - 1) * 8 + std::clamp(candidates, 1u, 8u) - 1;
-    std::uint32_t rank = candidates == 1 ? 0 : side_.symbol(model, std::min(wanted_rank, 15u));
+    for (std::uint32_t i = 0; i < candidates && wanted.kind != SplitKind::None; ++i)
+      wanted_rank += score[i] > score[wanted.begin] || (score[i] == score[wanted.begin] && i < wanted.begin);
+    const unsigned model = kRank + (std::min(split.span, 8u) - 1) * 8 + std::min(candidates, 8u) - 1;
+    std::uint32_t rank = side_.symbol(model, std::min(wanted_rank, 15u));
     if (rank == 15) rank += side_.number(kRankExcess, wanted_rank - 15);
     if (rank >= candidates) return false;
-    // Selection: ranks are small.
-    std::uint32_t best = 0;
-    for (std::uint32_t taken = 0;; ++taken) {
-      best = kNone;
-      for (std::uint32_t i = 0; i < candidates; ++i) {
-        if (score[i] > -1e30F && (best == kNone || score[i] > score[best])) best = i;
-      }
-      if (taken == rank) break;
-      score[best] = -2e30F;
+    while (true) {
+      std::uint32_t best = 0;
+      for (std::uint32_t i = 1; i < candidates; ++i) best = score[i] > score[best] ? i : best;
+      split.begin = best;
+      if (rank-- == 0) return true;
+      score[best] = -std::numeric_limits<float>::infinity();
     }
-    split.begin = best;
-    return true;
+  }
+  static float square(IntLanes step) {
+    const FloatLanes at = to_float(step);
+    return dot3(at, at);
   }
 
   bool choose_run(VertexId v, const WantedSplit& wanted, WantedSplit& split) {
     using namespace refinement_model;
     const std::uint32_t run = region_.run[v].length;
     split.boundary_run = 1;
+    if (run < 2) return false;
     if (run == 2) return true;
     const unsigned symbol = side_.symbol(kBoundaryRun + std::min(run, 8u) - 1, std::min(wanted.boundary_run - 1, 15u));
     split.boundary_run = symbol + 1;
@@ -259,13 +235,9 @@ class RefinementWalk {
     } else {
       ring.point[ring.points++] = ring.split;
     }
-    const VertexId u = add_vertex(v, star, split, ring);
-    for (std::uint32_t i = 0; i < split.span; ++i)
-      measure(star.corners[wrapped(split.begin + i)] / 4);
-    push(v, 2);
-    push(u, 3);
-    if (split.kind != SplitKind::AtStart) push(w1, region_.history[w1]);
-    if (split.kind != SplitKind::AtEnd) push(w2, region_.history[w2]);
+    add_vertex(v, star, split, ring);
+    if (split.kind != SplitKind::AtStart) touch(w1);
+    if (split.kind != SplitKind::AtEnd) touch(w2);
     return true;
   }
 
@@ -279,14 +251,12 @@ class RefinementWalk {
     ring.point[1] = is_at_end ? region_.position[w] : ring.split;
     ring.points = 2;
     ring.tip[ring.tips++] = ring.point[0] + ring.point[1] - at(facing);
-    const VertexId u = add_vertex(v, star, split, ring);
-    push(v, 2);
-    push(u, 3);
-    push(w, region_.history[w]);
+    add_vertex(v, star, split, ring);
+    touch(w);
     return true;
   }
 
-  VertexId add_vertex(VertexId v, const SplitMesh::Star& star, const WantedSplit& split, const NewRing& ring) {
+  void add_vertex(VertexId v, const SplitMesh::Star& star, const WantedSplit& split, const NewRing& ring) {
     Surroundings around{};
     const auto features = place_.look(ring, around);
     std::uint32_t tangential = 0, normal = 0;
@@ -295,8 +265,7 @@ class RefinementWalk {
     const std::uint32_t triangles = mesh_.triangle_count();
     const VertexId u = mesh_.split(v, star, split.kind, split.begin, split.span);
     region_.position[u] = position;
-    for (std::uint32_t t = triangles; t < mesh_.triangle_count(); ++t) measure(t);
-    side_.is_split(v, star, split, triangles);
+    side_.is_split(triangles);
     if (split.kind != SplitKind::Inner) {
       auto &old_run = region_.run[v], &new_run = region_.run[u];
       new_run = {old_run.loop, old_run.begin, split.boundary_run};
@@ -304,8 +273,13 @@ class RefinementWalk {
       (split.kind == SplitKind::AtStart ? new_run : old_run).begin +=
           split.kind == SplitKind::AtStart ? old_run.length : split.boundary_run;
     }
-    region_.is_queued[u] = 0;
-    return u;
+    const std::uint32_t more = mesh_.triangle_count() - triangles;
+    GrowingRegion::VertexState &old_state = region_.state[v], &new_state = region_.state[u];
+    new_state = {split.span + more, GrowingRegion::New, false, split.kind != SplitKind::Inner};
+    old_state.degree += more - split.span;
+    old_state.history = GrowingRegion::Split;
+    enqueue(v);
+    enqueue(u);
   }
 
   void add_tip(NewRing& ring, CornerId facing) {
@@ -322,7 +296,7 @@ class RefinementWalk {
   const std::uint32_t vertices_, triangles_;
   const bool is_finest_;
   Side& side_;
-  Scratch<float> scores_;
+  Scratch<float> lengths_, sums_, scores_;
 };
 
 }  // namespace selvage::bench
