@@ -21,7 +21,7 @@ inline float dot3(FloatLanes a, FloatLanes b) {
 
 /// The ring r[0..n) in order, closed or not, the split vertex among them, and the vertices beyond its edges.
 struct NewRing {
-  static constexpr unsigned kMost = 24;
+  static constexpr unsigned kMost = 14;
   IntLanes point[kMost + 1];
   IntLanes tip[kMost + 1];  ///< r[i] + r[i + 1] - what lies beyond
   unsigned points = 0, tips = 0;
@@ -50,39 +50,36 @@ class PlaceModel {
 
   [[gnu::always_inline]] Features look(const NewRing& ring, Surroundings& around) const {
     Features features;
-    const unsigned n = ring.points;
-    IntLanes sum{};
-    for (unsigned i = 0; i < n; ++i) sum += ring.point[i];
-    const FloatLanes mean = to_float(sum) * (1.0F / static_cast<float>(n));
-    const FloatLanes split = to_float(ring.split) - mean;
-    FloatLanes normal{}, before = to_float(ring.point[ring.is_open ? 0 : n - 1]) - mean;
-    FloatLanes reach{};
-    const FloatLanes begin = before;
-    for (unsigned i = ring.is_open ? 1 : 0; i < n; ++i) {
-      const FloatLanes at = to_float(ring.point[i]) - mean;
-      normal += cross(before, at);
+    const unsigned n = ring.points, tips = ring.tips;
+    // All in one turn, as seen from the split vertex.
+    FloatLanes sum{}, normal{}, reach{}, before{};
+    const FloatLanes begin = to_float(ring.point[0] - ring.split);
+    for (unsigned i = 0; i < n; ++i) {
+      const FloatLanes at = to_float(ring.point[i] - ring.split);
+      sum += at;
       reach += absolute(at);
+      normal += cross(before, at);
       before = at;
     }
+    const float per_point = kReciprocal[n];
+    const FloatLanes split = sum * -per_point, mean = to_float(ring.split) - split;
     normal[3] = 0;
     const float square = dot3(normal, normal);
     const FloatLanes unit = square > 0 ? normal * (1.0F / __builtin_sqrtf(square)) : FloatLanes{};
-    const float per_point = 1.0F / static_cast<float>(n);
-    float height = 0;
-    for (unsigned i = 0; i < n; ++i)
-      height += __builtin_fabsf(dot3(to_float(ring.point[i]) - mean, unit));
+    const float height = 0;
     FloatLanes beyond{};
     float spread = 0;
-    if (ring.tips > 0) {
-      IntLanes tips{};
-      for (unsigned i = 0; i < ring.tips; ++i) tips += ring.tip[i];
-      const FloatLanes mean_tip = to_float(tips) * (1.0F / static_cast<float>(ring.tips));
-      beyond = mean_tip - mean;
+    if (tips > 0) {
+      IntLanes all{};
       FloatLanes apart{};
-      for (unsigned i = 0; i < ring.tips; ++i) apart += absolute(to_float(ring.tip[i]) - mean_tip);
-      spread = (apart[0] + apart[1] + apart[2]) * (1.0F / static_cast<float>(ring.tips));
+      for (unsigned i = 0; i < tips; ++i) {
+        all += ring.tip[i];
+        apart += absolute(to_float(ring.tip[i] - ring.tip[i + 1 < tips ? i + 1 : 0]));
+      }
+      beyond = to_float(all) * kReciprocal[tips] - mean;
+      spread = (apart[0] + apart[1] + apart[2]) * kReciprocal[tips];
     }
-    const FloatLanes ends = ring.is_open ? (begin + before) * 0.5F : FloatLanes{};
+    const FloatLanes ends = ring.is_open ? (begin + before) * 0.5F + split : FloatLanes{};
     const float rise = dot3(beyond, unit), split_rise = dot3(split, unit);
     features.mean = mean;
     features.steps = {unit * rise, beyond - unit * rise, unit * split_rise, split - unit * split_rise, ends};
