@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "bench/simplify/layered/refinement_tables.h"
+#include "bench/simplify/layered/split_mesh.h"
 #include "common/codec/geometry_walk.h"
 #include "common/codec/prediction.h"
 
@@ -19,14 +20,36 @@ inline float dot3(FloatLanes a, FloatLanes b) {
   return p[0] + p[1] + p[2];
 }
 
-/// The ring r[0..n) in order, closed or not, the split vertex among them, and the vertices beyond its edges.
-struct NewRing {
-  static constexpr unsigned kMost = 14;
-  IntLanes point[kMost + 1];
-  IntLanes tip[kMost + 1];  ///< r[i] + r[i + 1] - what lies beyond
-  unsigned points = 0, tips = 0;
-  IntLanes split;  ///< where the split vertex is
-  bool is_open = false;
+/// The ring of a new vertex, as seen from the vertex that is split: its other points in counter-clockwise
+/// order, and for each edge with something beyond it the parallelogram's tip.
+class NewRing {
+ public:
+  /// A new vertex on the border has an open ring, at one end of which is the split vertex.
+  NewRing(IntLanes split, SplitKind kind) : split_(split), kind_(kind) {}
+
+  void add_point(IntLanes point) {
+    const FloatLanes at = to_float(point - split_);
+    if (points_++ == 0) first_ = at;
+    sum_ += at;
+    reach_ += absolute(at);
+    normal_ += cross(last_, at);
+    last_ = at;
+  }
+  void add_tip(IntLanes tip) {
+    const FloatLanes at = to_float(tip - split_);
+    if (tips_++ > 0) apart_ += absolute(at - last_tip_);
+    tip_sum_ += at;
+    last_tip_ = at;
+  }
+  /// Further points say little, and sums stay within bounds.
+  static constexpr std::uint32_t kMost = Fan::kMost - 8;
+
+ private:
+  friend class PlaceModel;
+  IntLanes split_;
+  SplitKind kind_;
+  unsigned points_ = 0, tips_ = 0;
+  FloatLanes first_{}, last_{}, sum_{}, reach_{}, normal_{}, tip_sum_{}, apart_{}, last_tip_{};
 };
 
 /// Fills in `around`, its `mean` with the place to expect.
@@ -38,63 +61,41 @@ class PlaceModel {
         weights_[c][i] = static_cast<float>(tables.place[c][i]) * (1.0F / 1024);
   }
 
-  static unsigned place_class(const NewRing& ring) {
-    return (ring.is_open ? 8 : 0) + (ring.tips + 1 >= ring.points ? 4 : 0) +
-           std::clamp(ring.points, 3u, 6u) - 3;
-  }
-
   struct Features {
+    unsigned place_class;
     FloatLanes mean;
     std::array<FloatLanes, kPlaceFeatures> steps;
   };
 
   [[gnu::always_inline]] Features look(const NewRing& ring, Surroundings& around) const {
     Features features;
-    const unsigned n = ring.points, tips = ring.tips;
-    // All in one turn, as seen from the split vertex.
-    FloatLanes sum{}, normal{}, reach{}, before{};
-    const FloatLanes begin = to_float(ring.point[0] - ring.split);
-    for (unsigned i = 0; i < n; ++i) {
-      const FloatLanes at = to_float(ring.point[i] - ring.split);
-      sum += at;
-      reach += absolute(at);
-      normal += cross(before, at);
-      before = at;
-    }
-    const float per_point = kReciprocal[n];
-    const FloatLanes split = sum * -per_point, mean = to_float(ring.split) - split;
+    const bool is_open = ring.kind_ != SplitKind::Inner;
+    const unsigned n = ring.points_ + 1, tips = ring.tips_;
+    const float per_point = kReciprocal[n], per_tip = tips > 0 ? kReciprocal[tips] : 0;
+    const FloatLanes mean = ring.sum_ * per_point, split = -mean;
+    FloatLanes normal = ring.normal_;
     normal[3] = 0;
     const float square = dot3(normal, normal);
     const FloatLanes unit = square > 0 ? normal * (1.0F / __builtin_sqrtf(square)) : FloatLanes{};
-    const float height = 0;
-    FloatLanes beyond{};
-    float spread = 0;
-    if (tips > 0) {
-      IntLanes all{};
-      FloatLanes apart{};
-      for (unsigned i = 0; i < tips; ++i) {
-        all += ring.tip[i];
-        apart += absolute(to_float(ring.tip[i] - ring.tip[i + 1 < tips ? i + 1 : 0]));
-      }
-      beyond = to_float(all) * kReciprocal[tips] - mean;
-      spread = (apart[0] + apart[1] + apart[2]) * kReciprocal[tips];
-    }
-    const FloatLanes ends = ring.is_open ? (begin + before) * 0.5F + split : FloatLanes{};
+    const FloatLanes beyond = tips > 0 ? ring.tip_sum_ * per_tip - mean : FloatLanes{};
     const float rise = dot3(beyond, unit), split_rise = dot3(split, unit);
-    features.mean = mean;
+    const FloatLanes far_end = ring.kind_ == SplitKind::AtStart ? ring.first_ : ring.last_;
+    const FloatLanes ends = is_open ? far_end * 0.5F + split : FloatLanes{};
+    features.mean = to_float(ring.split_) + mean;
     features.steps = {unit * rise, beyond - unit * rise, unit * split_rise, split - unit * split_rise, ends};
+    features.place_class = (is_open ? 8 : 0) + (tips + 1 >= n ? 4 : 0) + std::clamp(n, 3u, 6u) - 3;
     around.has_neighbours = true;
-    around.parallelograms = ring.is_open ? 1 : 2;
-    around.size_class = ring.is_open ? 0 : std::clamp(n, 3u, 5u) - 2;
+    around.parallelograms = is_open ? 1 : 2;
+    around.size_class = is_open ? 0 : std::clamp(n, 3u, 5u) - 2;
     around.shape_class = 0;
-    const FloatLanes sizes{(reach[0] + reach[1] + reach[2]) * per_point, height * per_point, spread,
-                           __builtin_fabsf(rise)};
+    const FloatLanes sums = sums_of_three(ring.reach_, ring.apart_);
+    const FloatLanes sizes{sums[0] * per_point, 0, sums[1] * per_tip, __builtin_fabsf(rise)};
     around.logs = from_log(log_of_magnitudes(sizes));
     around.recent = from_log(recent_);
     around.beyond = around.ring = around.trend = FloatLanes{};
     set_tangent_plane(normal, around);
-    const auto& w = weights_[place_class(ring)];
-    FloatLanes expected = mean;
+    const auto& w = weights_[features.place_class];
+    FloatLanes expected = features.mean;
     for (unsigned i = 0; i < kPlaceFeatures; ++i) expected += features.steps[i] * w[i];
     around.mean = expected;
     return features;

@@ -14,13 +14,26 @@ using refinement_model::kExcess;
 
 CornerId four(CornerId c) { return c / 3 * 4 + c % 3; }
 
+/// x, y, z of a residual along the normal axis and the two after it.
 IntLanes along_axes(unsigned normal_axis, std::int32_t n, std::int32_t u, std::int32_t w) {
-  IntLanes lanes{};
-  lanes[normal_axis] = n;
-  lanes[normal_axis == 2 ? 0 : normal_axis + 1] = u;
-  lanes[normal_axis == 0 ? 2 : normal_axis - 1] = w;
-  return lanes;
+  static constexpr IntLanes kLanes[3] = {{-1, 0, 0, 0}, {0, -1, 0, 0}, {0, 0, -1, 0}};
+  const IntLanes first = kLanes[normal_axis], second = __builtin_shufflevector(first, first, 2, 0, 1, 3),
+                 third = __builtin_shufflevector(first, first, 1, 2, 0, 3);
+  return (first & n) | (second & u) | (third & w);
 }
+
+/// A residual and the number of its raw bits: a sign unless it must be 0, then the low bits.
+struct Residual {
+  std::int32_t magnitude, value;
+  int bits;
+  Residual(std::uint32_t coarse, int low_bits, std::uint64_t window)
+      : bits(low_bits + ((coarse | static_cast<unsigned>(low_bits)) != 0)) {
+    const auto raw = static_cast<std::uint32_t>(window);
+    magnitude = static_cast<std::int32_t>(coarse << low_bits | (raw >> 1 & ((1u << low_bits) - 1)));
+    const auto sign = static_cast<std::int32_t>(raw & 1);
+    value = (magnitude ^ -sign) + sign;
+  }
+};
 
 unsigned place_model(unsigned axis, const Surroundings& around, const SizeClass& size) {
   return refinement_model::kMagnitude + magnitude_model(axis, around, size) - region_model::kMagnitude;
@@ -38,8 +51,8 @@ class LayerDecoder {
   void is_split(std::uint32_t) {}
 
   [[gnu::always_inline]] IntLanes position(const Predictor& sizes, const Surroundings& around,
-                                           const PlaceModel::Features&, const NewRing&,
-                                           std::uint32_t& tangential, std::uint32_t& normal) {
+                                           const PlaceModel::Features&, std::uint32_t& tangential,
+                                           std::uint32_t& normal) {
     const IntLanes expected = sizes.expected_sizes(around);
     const SizeClass first = sizes.size_class(around, expected, 0, 0, 0);
     const unsigned symbol_u = in_.symbol(place_model(0, around, first));
@@ -50,23 +63,21 @@ class LayerDecoder {
     const std::uint32_t coarse_w = coarse(symbol_w, second);
     const SizeClass third = sizes.size_class(around, expected, 2, log_u, coarse_log(symbol_w, second));
     const std::uint32_t coarse_last = coarse(in_.symbol(place_model(2, around, third)), third);
-    std::int32_t u = value(coarse_u, first), w = value(coarse_w, second), last = value(coarse_last, third);
-    tangential = magnitude_of(u) + magnitude_of(w);
-    normal = magnitude_of(last);
-    return rounded(around.mean) +
-           along_axes(around.normal_axis, last + sizes.tangent_residual(around, u, w), u, w);
+    std::uint64_t window = in_.peek_bits();
+    const Residual u(coarse_u, first.raw_low_bits, window);
+    const Residual w(coarse_w, second.raw_low_bits, window >>= u.bits);
+    const Residual last(coarse_last, third.raw_low_bits, window >>= w.bits);
+    in_.skip_bits(u.bits + w.bits + last.bits);
+    tangential = static_cast<std::uint32_t>(u.magnitude + w.magnitude);
+    normal = static_cast<std::uint32_t>(last.magnitude);
+    const std::int32_t tangent = sizes.tangent_residual(around, u.value, w.value);
+    return rounded(around.mean) + along_axes(around.normal_axis, last.value + tangent, u.value, w.value);
   }
 
  private:
   std::uint32_t coarse(unsigned symbol, const SizeClass& size) {
     if (symbol != kMagnitudeEscape) return symbol;
     return std::min(symbol + std::min(in_.number(kExcess), kMaxResidual), kMaxResidual >> size.raw_low_bits);
-  }
-  std::int32_t value(std::uint32_t coarse, const SizeClass& size) {
-    if (coarse == 0 && size.raw_low_bits == 0) return 0;
-    const std::uint32_t raw = in_.bits(1 + size.raw_low_bits);
-    const auto magnitude = static_cast<std::int32_t>(coarse << size.raw_low_bits | raw >> 1);
-    return (raw & 1) != 0 ? -magnitude : magnitude;
   }
   EntropyDecoder in_;
 };
@@ -192,12 +203,12 @@ WantedSplit LayerEncoder::wanted(VertexId v) {
 }
 
 IntLanes LayerEncoder::position(const Predictor& sizes, const Surroundings& around,
-                                const PlaceModel::Features& features, const NewRing& ring,
+                                const PlaceModel::Features& features,
                                 std::uint32_t& tangential, std::uint32_t& normal) {
   const GridPoint p = drop_bits(positions_[(*splits_)[current_].from], dropped_bits_);
   const IntLanes position{p.x, p.y, p.z, 0};
   if (watch_ != nullptr && watch_->on_place)
-    watch_->on_place(PlaceModel::place_class(ring), features, position);
+    watch_->on_place(features, position);
   const CodedResidual residual = residual_of(sizes, around, position);
   if (watch_ != nullptr && watch_->on_residual) watch_->on_residual(around, residual);
   const IntLanes expected = sizes.expected_sizes(around);

@@ -37,7 +37,7 @@ bool decode_layer(std::span<const std::byte> bytes, const LayerSize& coarse, con
 
 /// For training.
 struct LayerWatch {
-  std::function<void(unsigned place_class, const PlaceModel::Features&, IntLanes position)> on_place;
+  std::function<void(const PlaceModel::Features&, IntLanes position)> on_place;
   std::function<void(const Surroundings&, const CodedResidual&)> on_residual;
 };
 
@@ -60,7 +60,7 @@ class LayerEncoder {
   unsigned symbol(unsigned model, unsigned value) { return out_.symbol(model, value), value; }
   std::uint32_t number(unsigned model, std::uint32_t value) { return out_.number(model, value), value; }
   IntLanes position(const Predictor& sizes, const Surroundings& around, const PlaceModel::Features& features,
-                    const NewRing& ring, std::uint32_t& tangential, std::uint32_t& normal);
+                    std::uint32_t& tangential, std::uint32_t& normal);
   void is_split(std::uint32_t triangles);
 
  private:

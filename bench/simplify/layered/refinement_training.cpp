@@ -90,7 +90,7 @@ RefinementTables train_refinement(std::span<const LayeredModel* const> models) {
 
   std::array<LeastSquares<kPlaceFeatures>, kPlaceClasses> places;
   LayerWatch watch;
-  watch.on_place = [&](unsigned place_class, const PlaceModel::Features& features, IntLanes position) {
+  watch.on_place = [&](const PlaceModel::Features& features, IntLanes position) {
     const FloatLanes y = to_float(position) - features.mean;
     // In units of the ring, about: the largest rings would decide everything.
     double scale = 1;
@@ -100,7 +100,7 @@ RefinementTables train_refinement(std::span<const LayeredModel* const> models) {
     for (int axis = 0; axis < 3; ++axis) {
       std::array<double, kPlaceFeatures> x;
       for (unsigned i = 0; i < kPlaceFeatures; ++i) x[i] = features.steps[i][axis];
-      places[place_class].add(x, y[axis], 1 / (scale * (0.25 * scale + std::abs(y[axis]))));
+      places[features.place_class].add(x, y[axis], 1 / (scale * (0.25 * scale + std::abs(y[axis]))));
     }
   };
   encode_all(&watch, nullptr);

@@ -10,6 +10,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
@@ -84,6 +86,9 @@ class RefinementWalk {
   }
 
  private:
+  static constexpr std::uint32_t kFew = 8;
+  static constexpr float kNever = -std::numeric_limits<float>::infinity();
+
   static CodecTables size_tables(const RefinementTables& tables) {
     return {tables.models, {}, {}, tables.size};
   }
@@ -161,36 +166,71 @@ class RefinementWalk {
     using namespace refinement_model;
     const std::uint32_t candidates = star.is_open ? star.size - split.span + 1 : star.size;
     if (candidates == 1) return true;
-    // Squared lengths, and their sums from the first on, round and round.
-    const std::uint32_t end = candidates + split.span;
-    float *length = lengths_.make(end + 1), *sum = sums_.make(end + 1), *score = scores_.make(candidates);
+    // Squared lengths, in a closed star round and round.
+    const std::uint32_t end = star.size <= kFew ? 2 * kFew + 1 : 2 * star.size;
+    float* length = lengths_.make(end);
+    if (star.size <= kFew) std::fill_n(length, end, 0.0F);
     const IntLanes centre = region_.position[v];
-    for (std::uint32_t i = 0; i < star.size; ++i) length[i] = square(at(SplitMesh::next(star.corners[i])) - centre);
+    for (std::uint32_t i = 0; i < star.size; ++i)
+      length[i] = square(at(SplitMesh::next(star.corners[i])) - centre);
     if (star.is_open) {
       length[star.size] = square(at(SplitMesh::prev(star.corners[star.size - 1])) - centre);
     } else {
-      for (std::uint32_t i = star.size; i < end; ++i) length[i] = length[i - star.size];
+      std::copy_n(length, star.size <= kFew ? kFew : star.size, length + star.size);
     }
-    sum[0] = 0;
-    for (std::uint32_t i = 0; i < end; ++i) sum[i + 1] = sum[i] + length[i];
-    for (std::uint32_t i = 0; i < candidates; ++i)
-      score[i] = sum[i + split.span] - sum[i + 1] - 0.5F * (length[i] + length[i + split.span]);
+    return star.size <= kFew ? choose_of_few(length, candidates, wanted, split)
+                             : choose_of_many(length, candidates, wanted, split);
+  }
 
+  /// Without jumps: how large stars and runs are cannot be guessed.
+  bool choose_of_few(const float* length, std::uint32_t candidates, const WantedSplit& wanted,
+                     WantedSplit& split) {
+    std::array<float, kFew> score;
+    for (std::uint32_t i = 0; i < kFew; ++i) score[i] = -0.5F * (length[i] + length[i + split.span]);
+    for (std::uint32_t j = 1; j < kFew; ++j) {
+      const float weight = j < split.span ? 1 : 0;
+      for (std::uint32_t i = 0; i < kFew; ++i) score[i] += weight * length[i + j];
+    }
+    for (std::uint32_t i = 0; i < kFew; ++i) score[i] = i < candidates ? score[i] : kNever;
+    std::array<std::int32_t, kFew> rank{};
+    for (std::uint32_t j = 0; j < kFew; ++j) {
+      for (std::uint32_t i = 0; i < kFew; ++i)
+        rank[i] += (score[j] > score[i]) | ((score[j] == score[i]) & (j < i));
+    }
+    const auto chosen = static_cast<std::int32_t>(
+        code_rank(candidates, split, static_cast<std::uint32_t>(rank[wanted.begin % kFew])));
+    std::uint32_t bits = 0;
+    for (std::uint32_t i = 0; i < kFew; ++i) bits |= static_cast<std::uint32_t>(rank[i] == chosen) << i;
+    split.begin = static_cast<std::uint32_t>(std::countr_zero(bits | 1u << kFew));
+    return split.begin < candidates;
+  }
+
+  bool choose_of_many(const float* length, std::uint32_t candidates, const WantedSplit& wanted,
+                      WantedSplit& split) {
+    float* score = scores_.make(candidates);
+    for (std::uint32_t i = 0; i < candidates; ++i) {
+      score[i] = -0.5F * (length[i] + length[i + split.span]);
+      for (std::uint32_t j = 1; j < split.span; ++j) score[i] += length[i + j];
+    }
     std::uint32_t wanted_rank = 0;
     for (std::uint32_t i = 0; i < candidates && wanted.kind != SplitKind::None; ++i)
       wanted_rank += score[i] > score[wanted.begin] || (score[i] == score[wanted.begin] && i < wanted.begin);
-    const unsigned model = kRank + (std::min(split.span, 8u) - 1) * 8 + std::min(candidates, 8u) - 1;
-    std::uint32_t rank = side_.symbol(model, std::min(wanted_rank, 15u));
-    if (rank == 15) rank += side_.number(kRankExcess, wanted_rank - 15);
+    std::uint32_t rank = code_rank(candidates, split, wanted_rank);
     if (rank >= candidates) return false;
     while (true) {
-      std::uint32_t best = 0;
-      for (std::uint32_t i = 1; i < candidates; ++i) best = score[i] > score[best] ? i : best;
-      split.begin = best;
+      split.begin = static_cast<std::uint32_t>(std::max_element(score, score + candidates) - score);
       if (rank-- == 0) return true;
-      score[best] = -std::numeric_limits<float>::infinity();
+      score[split.begin] = kNever;
     }
   }
+
+  std::uint32_t code_rank(std::uint32_t candidates, const WantedSplit& split, std::uint32_t wanted_rank) {
+    using namespace refinement_model;
+    const unsigned model = kRank + (std::min(split.span, 8u) - 1) * 8 + std::min(candidates, 8u) - 1;
+    const std::uint32_t rank = side_.symbol(model, std::min(wanted_rank, 15u));
+    return rank < 15 ? rank : rank + side_.number(kRankExcess, wanted_rank - 15);
+  }
+
   static float square(IntLanes step) {
     const FloatLanes at = to_float(step);
     return dot3(at, at);
@@ -212,29 +252,19 @@ class RefinementWalk {
     const unsigned new_triangles = split.kind == SplitKind::Inner ? 2 : 1;
     if (mesh_.vertex_count() == vertices_ || mesh_.triangle_count() + new_triangles > triangles_) return false;
     const auto wrapped = [&](std::uint32_t i) { return i < star.size ? i : i - star.size; };
-    NewRing ring;
-    ring.split = region_.position[v];
+    NewRing ring(region_.position[v], split.kind);
     if (split.span == 0) return grow_ear(v, star, split, ring);
-    const CornerId first = star.corners[split.begin], last = star.corners[wrapped(split.begin + split.span - 1)];
+    const CornerId first = star.corners[split.begin],
+                   last = star.corners[wrapped(split.begin + split.span - 1)];
     const VertexId w1 = mesh_.vertex(SplitMesh::next(first)), w2 = mesh_.vertex(SplitMesh::prev(last));
     add_tip(ring, SplitMesh::prev(first));
-    ring.point[ring.points++] = region_.position[w1];
-    for (std::uint32_t i = 0; i < split.span; ++i) {
+    ring.add_point(region_.position[w1]);
+    for (std::uint32_t i = 0; i < std::min(split.span, NewRing::kMost); ++i) {
       const CornerId c = star.corners[wrapped(split.begin + i)];
-      if (ring.points < NewRing::kMost) {
-        add_tip(ring, c);
-        ring.point[ring.points++] = at(SplitMesh::prev(c));
-      }
+      add_tip(ring, c);
+      ring.add_point(at(SplitMesh::prev(c)));
     }
     add_tip(ring, SplitMesh::next(last));
-    ring.is_open = split.kind != SplitKind::Inner;
-    if (split.kind == SplitKind::AtEnd) {
-      for (unsigned i = ring.points; i > 0; --i) ring.point[i] = ring.point[i - 1];
-      ring.point[0] = ring.split;
-      ++ring.points;
-    } else {
-      ring.point[ring.points++] = ring.split;
-    }
     add_vertex(v, star, split, ring);
     if (split.kind != SplitKind::AtStart) touch(w1);
     if (split.kind != SplitKind::AtEnd) touch(w2);
@@ -246,11 +276,8 @@ class RefinementWalk {
     const CornerId facing =
         is_at_end ? SplitMesh::next(star.corners[star.size - 1]) : SplitMesh::prev(star.corners[0]);
     const VertexId w = mesh_.vertex(is_at_end ? SplitMesh::next(facing) : SplitMesh::prev(facing));
-    ring.is_open = true;
-    ring.point[0] = is_at_end ? ring.split : region_.position[w];
-    ring.point[1] = is_at_end ? region_.position[w] : ring.split;
-    ring.points = 2;
-    ring.tip[ring.tips++] = ring.point[0] + ring.point[1] - at(facing);
+    ring.add_point(region_.position[w]);
+    ring.add_tip(region_.position[v] + region_.position[w] - at(facing));
     add_vertex(v, star, split, ring);
     touch(w);
     return true;
@@ -260,7 +287,7 @@ class RefinementWalk {
     Surroundings around{};
     const auto features = place_.look(ring, around);
     std::uint32_t tangential = 0, normal = 0;
-    const IntLanes position = side_.position(sizes_, around, features, ring, tangential, normal);
+    const IntLanes position = side_.position(sizes_, around, features, tangential, normal);
     place_.note(tangential, normal);
     const std::uint32_t triangles = mesh_.triangle_count();
     const VertexId u = mesh_.split(v, star, split.kind, split.begin, split.span);
@@ -286,7 +313,7 @@ class RefinementWalk {
     const CornerId across = mesh_.opposite(facing);
     if (across == kNone) return;
     // The edge that `facing` faces.
-    ring.tip[ring.tips++] = at(SplitMesh::next(facing)) + at(SplitMesh::prev(facing)) - at(across);
+ring.add_tip(at(SplitMesh::next(facing)) + at(SplitMesh::prev(facing)) - at(across));
   }
 
   GrowingRegion& region_;
@@ -296,7 +323,7 @@ class RefinementWalk {
   const std::uint32_t vertices_, triangles_;
   const bool is_finest_;
   Side& side_;
-  Scratch<float> lengths_, sums_, scores_;
+  Scratch<float> lengths_, scores_;
 };
 
 }  // namespace selvage::bench
