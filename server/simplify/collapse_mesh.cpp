@@ -42,13 +42,11 @@ void CollapseMesh::collapse(const Star& star, std::uint32_t place) {
   if (after != kNone) {
     const CornerId c = star.corners[after], inner = table_.opposite[next(c)], outer = table_.opposite[c];
     spare_after = inner != kNone ? prev(inner) : next(outer);
-    if (kept == kNone) kept = prev(outer);
     remove_triangle(c, next(c));
   }
   if (before != kNone) {
     const CornerId c = star.corners[before], inner = table_.opposite[prev(c)], outer = table_.opposite[c];
     spare_before = inner != kNone ? next(inner) : prev(outer);
-    if (kept == kNone) kept = next(outer);
     remove_triangle(c, prev(c));
   }
   table_.corner_of_vertex[star.centre] = kNone;

@@ -23,8 +23,7 @@ class CollapseMesh {
   std::uint32_t triangle_count() const { return triangle_count_; }  ///< that are left
 
   /// Collapses the star's centre to its ring vertex at `place`. Needs a legal collapse (legality.h) and a
-  /// star gathered from this very state, or the star of a border vertex that has but one triangle, with another
-  /// beyond its far edge. Time: the triangles around both vertices.
+  /// star gathered from this very state. Time: the triangles around both vertices.
   void collapse(const Star& star, std::uint32_t place);
 
  private:

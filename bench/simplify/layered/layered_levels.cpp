@@ -36,9 +36,9 @@ class Maker {
     }
     partition_ = make_partition(mesh.table, segmentation.region_of_vertex, segmentation.region_count);
     const auto targets = targets_of(mesh);
-    levels_ = make_model_levels(
-        {mesh.table, positions_, segmentation.region_of_vertex, segmentation.region_count}, targets,
-        serial_for());
+    levels_ =
+        make_model_levels({mesh.table, positions_, segmentation.region_of_vertex, segmentation.region_count},
+                          targets, serial_for());
     // The same run once more, for its collapses.
     run_ = simplify({mesh.table, grid_positions, segmentation.region_of_vertex}, targets);
     local_vertex_.resize(mesh.table.vertex_count(), kNone);
@@ -53,8 +53,8 @@ class Maker {
     Directory directory = encoded.directory;
     model.alone_bytes = assemble_pack(std::move(directory), encoded.parts).size();
     split_collapses();
-    std::size_t part = encoded.directory.regions[0].levels.size() +
-                       (encoded.directory.regions[0].bundle_triangles > 0);
+    std::size_t part =
+        encoded.directory.regions[0].levels.size() + (encoded.directory.regions[0].bundle_triangles > 0);
     for (RegionId id = 1; id <= partition_.region_count; ++id) {
       const RegionEntry& entry = encoded.directory.regions[id];
       LayeredRegion region = make_region(id, entry, model);
@@ -95,7 +95,8 @@ class Maker {
     const auto& representative = levels_.representative_of_vertex[level];
     const RegionLevel& cut_level = levels_.regions[level][id];
     for (std::uint32_t i = 0; i < cut_level.vertices.size(); ++i) local_vertex_[cut_level.vertices[i]] = i;
-    for (std::uint32_t i = 0; i < cut_level.triangles.size(); ++i) local_triangle_[cut_level.triangles[i]] = i;
+    for (std::uint32_t i = 0; i < cut_level.triangles.size(); ++i)
+      local_triangle_[cut_level.triangles[i]] = i;
     RegionSource cut;
     for (const TriangleId t : cut_level.triangles) {
       for (CornerId c = 3 * t; c < 3 * t + 3; ++c) {
@@ -160,17 +161,23 @@ class Maker {
     for (const VertexId v : region.vertex_of_boundary)
       vertex_of_boundary.push_back(coarse_of_finest[region.representative.back()[v]]);
     const int dropped = region.sizes.back().dropped_bits;
-    cut.coarse = CoarseSource{region.loop_lengths, vertex_of_boundary, {entry.box_min, entry.box_max}, dropped};
+    cut.coarse =
+        CoarseSource{region.loop_lengths, vertex_of_boundary, {entry.box_min, entry.box_max}, dropped};
     EncodedRegion encoded = encode_region(cut);
     region.base = std::move(encoded.bytes);
-    region.base_limits = {region.sizes.back().vertices, region.sizes.back().triangles, entry.box_min,
-                          entry.box_max, std::nullopt, CoarseLevel{region.loop_lengths, dropped}};
+    region.base_limits = {region.sizes.back().vertices,
+                          region.sizes.back().triangles,
+                          entry.box_min,
+                          entry.box_max,
+                          std::nullopt,
+                          CoarseLevel{region.loop_lengths, dropped}};
     region.base_mesh = decode_region(region.base, region.base_limits).value();
     for (const VertexId v : encoded.source_of_vertex) region.source_of_base.push_back(finest_of_vertex[v]);
     find_corners(region);
   }
 
-  /// Which of the finest region's corners each of the base's is: triangles are known by their corners' vertices.
+  /// Which of the finest region's corners each of the base's is: triangles are known by their corners'
+  /// vertices.
   static void find_corners(LayeredRegion& region) {
     std::map<Triangle, CornerId> first_corner;
     const CornerTable& coarse = region.layers.back().coarse;
@@ -196,8 +203,8 @@ class Maker {
   Partition partition_;
   LevelledMesh levels_;
   Simplification run_;
-  std::vector<std::vector<Collapse>> collapses_;   // by region, in the model's numbers
-  std::vector<std::vector<std::uint32_t>> ends_;   // by region, by level
+  std::vector<std::vector<Collapse>> collapses_;  // by region, in the model's numbers
+  std::vector<std::vector<std::uint32_t>> ends_;  // by region, by level
   std::vector<std::uint32_t> local_vertex_, local_triangle_;
 };
 

@@ -39,7 +39,8 @@ struct LayeredModel {
   std::vector<LayeredRegion> regions;
   std::size_t one_level_bytes = 0, alone_bytes = 0;  ///< of packs
   std::uint32_t vertices = 0;                        ///< of all regions at the finest level
-  int refined_precisions = 0;  ///< levels that drop fewer bits than alone, so as not to drop fewer than a finer one
+  int refined_precisions =
+      0;  ///< levels that drop fewer bits than alone, so as not to drop fewer than a finer one
 };
 
 LayeredModel make_layered_model(const LabelledMesh& mesh, int bits);

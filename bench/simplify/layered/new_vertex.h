@@ -89,7 +89,8 @@ class PlaceModel {
     around.size_class = is_open ? 0 : std::clamp(n, 3u, 5u) - 2;
     around.shape_class = 0;
     const FloatLanes sums = sums_of_three(ring.reach_, ring.apart_);
-    const FloatLanes sizes{sums[0] * per_point, 0, sums[1] * per_tip, __builtin_fabsf(rise)};
+    const FloatLanes sizes{sums[0] * per_point, __builtin_fabsf(split_rise), sums[1] * per_tip,
+                           __builtin_fabsf(rise)};
     around.logs = from_log(log_of_magnitudes(sizes));
     around.recent = from_log(recent_);
     around.beyond = around.ring = around.trend = FloatLanes{};

@@ -41,7 +41,8 @@ unsigned place_model(unsigned axis, const Surroundings& around, const SizeClass&
 
 class LayerDecoder {
  public:
-  LayerDecoder(std::span<const std::byte> bytes, const RefinementTables& tables) : in_(bytes, tables.models) {}
+  LayerDecoder(std::span<const std::byte> bytes, const RefinementTables& tables)
+      : in_(bytes, tables.models) {}
 
   EntropyDecoder& in() { return in_; }
 
@@ -109,7 +110,8 @@ RegionMesh grown(const GrowingRegion& region, std::span<const std::uint32_t> fin
   mesh.table = region.mesh.plain();
   mesh.positions.resize(level.vertices);
   std::vector<std::uint32_t> begin_of_loop{0};
-  for (const std::uint32_t length : finest_loop_lengths) begin_of_loop.push_back(begin_of_loop.back() + length);
+  for (const std::uint32_t length : finest_loop_lengths)
+    begin_of_loop.push_back(begin_of_loop.back() + length);
   mesh.vertex_of_boundary.resize(begin_of_loop.back());
   for (VertexId v = 0; v < level.vertices; ++v) {
     const IntLanes p = region.position[v];
@@ -170,7 +172,7 @@ EntropyEncoder LayerEncoder::encode(const std::vector<PlannedSplit>& splits, con
     if (splits[i].waits_for == 0) ready_.push_back(i);
   }
   RefinementWalk<LayerEncoder> walk(region_, tables, fine.vertices, fine.triangles, is_finest, *this);
-  const bool okk = walk.run(); if (!okk || !ready_.empty()) std::fprintf(stderr,"ok %d ready %zu of %zu; v %u of %u t %u of %u\n",okk,ready_.size(),splits.size(),region_.mesh.vertex_count(),fine.vertices,region_.mesh.triangle_count(),fine.triangles),std::fprintf(stderr, "a level is not reached\n"), std::abort();
+  if (!walk.run() || !ready_.empty()) std::fprintf(stderr, "layers: a level is not reached\n"), std::abort();
   return std::move(out_);
 }
 
@@ -203,12 +205,11 @@ WantedSplit LayerEncoder::wanted(VertexId v) {
 }
 
 IntLanes LayerEncoder::position(const Predictor& sizes, const Surroundings& around,
-                                const PlaceModel::Features& features,
-                                std::uint32_t& tangential, std::uint32_t& normal) {
+                                const PlaceModel::Features& features, std::uint32_t& tangential,
+                                std::uint32_t& normal) {
   const GridPoint p = drop_bits(positions_[(*splits_)[current_].from], dropped_bits_);
   const IntLanes position{p.x, p.y, p.z, 0};
-  if (watch_ != nullptr && watch_->on_place)
-    watch_->on_place(features, position);
+  if (watch_ != nullptr && watch_->on_place) watch_->on_place(features, position);
   const CodedResidual residual = residual_of(sizes, around, position);
   if (watch_ != nullptr && watch_->on_residual) watch_->on_residual(around, residual);
   const IntLanes expected = sizes.expected_sizes(around);
@@ -221,7 +222,8 @@ IntLanes LayerEncoder::position(const Predictor& sizes, const Surroundings& arou
   };
   const auto rest = [&](const SizeClass& size, std::int32_t value) {
     if (magnitude_of(value) >> size.raw_low_bits == 0 && size.raw_low_bits == 0) return;
-    out_.bits((magnitude_of(value) & ((1u << size.raw_low_bits) - 1)) << 1 | (value < 0), 1 + size.raw_low_bits);
+    out_.bits((magnitude_of(value) & ((1u << size.raw_low_bits) - 1)) << 1 | (value < 0),
+              1 + size.raw_low_bits);
   };
   const SizeClass first = sizes.size_class(around, expected, 0, 0, 0);
   const std::int32_t log_u = magnitude(0, first, residual.u);

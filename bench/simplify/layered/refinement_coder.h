@@ -43,8 +43,8 @@ struct LayerWatch {
 
 class LayerEncoder {
  public:
-  /// `positions` by the finest region's vertex, with all bits. `source_of_vertex` is that vertex by the base's
-  /// own number; `corner_of_base` the finest region's corner by the base's corner.
+  /// `positions` by the finest region's vertex, with all bits. `source_of_vertex` is that vertex by the
+  /// base's own number; `corner_of_base` the finest region's corner by the base's corner.
   LayerEncoder(GrowingRegion& region, std::span<const GridPoint> positions,
                std::vector<VertexId> source_of_vertex, const CornerTable& finest,
                std::span<const CornerId> corner_of_base);
@@ -67,10 +67,10 @@ class LayerEncoder {
   GrowingRegion& region_;
   std::span<const GridPoint> positions_;
   std::vector<VertexId> source_of_vertex_;
-  std::vector<CornerId> local_of_corner_;
+  std::vector<CornerId> local_of_corner_;  ///< of the growing region, by the finest region's
   const std::vector<PlannedSplit>* splits_ = nullptr;
-  std::vector<std::uint32_t> waits_for_, ready_;
-  std::uint32_t current_ = 0;
+  std::vector<std::uint32_t> waits_for_, ready_;  ///< how many, by split; splits that wait for none
+  std::uint32_t current_ = 0;                     ///< the split in hand
   int dropped_bits_ = 0;
   EntropyEncoder out_;
   const LayerWatch* watch_ = nullptr;

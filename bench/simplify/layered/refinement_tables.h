@@ -18,8 +18,8 @@ enum Field : unsigned {
   kMagnitude = 0,  ///< as in a region part
   kExcess = 3 * 2 * region_model::kMagnitudes,
   kClosed,  ///< + is_finest, history, degree: triangles that go to a new vertex, 0 if none does
-  kOpen = kClosed + 2 * kHistories * kDegrees,  ///< + is_finest, run, history, degree: SplitKind
-  kOpenSpan = kOpen + 2 * kRuns * kHistories * kDegrees,     ///< + kind, degree
+  kOpen = kClosed + 2 * kHistories * kDegrees,            ///< + is_finest, run, history, degree: SplitKind
+  kOpenSpan = kOpen + 2 * kRuns * kHistories * kDegrees,  ///< + kind, degree
   kRank = kOpenSpan + 4 * kDegrees,  ///< + span, candidates: which of the places for such a run
   kBoundaryRun = kRank + 8 * 8,      ///< + run: boundary indices that the new vertex takes, less one
   kSpanExcess = kBoundaryRun + 8,    ///< bit lengths, as the next

@@ -43,9 +43,10 @@ void check_level(const LayeredRegion& region, const GrowingRegion& grown_region,
             triangles(expected, [](VertexId v) { return v; }),
         "other triangles");
   for (VertexId v = 0; v < size.vertices; ++v) {
-    check(mesh.positions[v] == restore_bits(drop_bits(region.positions[source_of_vertex[v]], size.dropped_bits),
-                                            size.dropped_bits),
-          "another position");
+    check(
+        mesh.positions[v] == restore_bits(drop_bits(region.positions[source_of_vertex[v]], size.dropped_bits),
+                                          size.dropped_bits),
+        "another position");
     const bool is_border = mesh.table.is_border_vertex(v);
     check(is_border == (grown_region.run[v].length > 0), "another border");
   }
@@ -62,7 +63,9 @@ std::vector<Bytes> encode_layers(const LayeredRegion& region, const RefinementTa
                                  const LayerWatch* watch, std::vector<EntropyEncoder>* symbols) {
   GrowingRegion growing =
       start_growing(region.base_mesh, region.loop_lengths, region.sizes.back(), region.sizes.front());
-  LayerEncoder encoder(growing, region.positions, region.source_of_base, region.finest, region.corner_of_base);
+  GrowingRegion decoded = growing;
+  LayerEncoder encoder(growing, region.positions, region.source_of_base, region.finest,
+                       region.corner_of_base);
   std::vector<Bytes> parts(kLevels - 1);
   for (std::size_t level = kLevels - 1; level-- > 0;) {
     const LayerSize &coarse = region.sizes[level + 1], &fine = region.sizes[level];
@@ -72,6 +75,8 @@ std::vector<Bytes> encode_layers(const LayeredRegion& region, const RefinementTa
     parts[level] = coded.finish(tables.models).bytes;
     if (symbols != nullptr) symbols->push_back(std::move(coded));
     check_level(region, growing, encoder.source_of_vertex(), level);
+    check(decode_layer(parts[level], coarse, fine, level == 0, tables, decoded), "does not decode");
+    check_level(region, decoded, encoder.source_of_vertex(), level);
   }
   return parts;
 }

@@ -62,8 +62,14 @@ class RefinementWalk {
  public:
   RefinementWalk(GrowingRegion& region, const RefinementTables& tables, std::uint32_t vertices,
                  std::uint32_t triangles, bool is_finest, Side& side)
-      : region_(region), mesh_(region.mesh), place_(tables), sizes_(size_tables(tables), Blends{}),
-        vertices_(vertices), triangles_(triangles), is_finest_(is_finest), side_(side) {}
+      : region_(region),
+        mesh_(region.mesh),
+        place_(tables),
+        sizes_(size_tables(tables), Blends{}),
+        vertices_(vertices),
+        triangles_(triangles),
+        is_finest_(is_finest),
+        side_(side) {}
 
   /// False if the stream is corrupt.
   bool run() {
@@ -122,7 +128,8 @@ class RefinementWalk {
     const WantedSplit wanted = side_.wanted(v);
     const unsigned degree = std::clamp(state.degree, 3u, 2 + kDegrees) - 3;
     WantedSplit split{.kind = SplitKind::Inner};
-    split.span = span_of(kClosed + (is_finest_ * kHistories + state.history) * kDegrees + degree, wanted.span);
+    split.span =
+        span_of(kClosed + (is_finest_ * kHistories + state.history) * kDegrees + degree, wanted.span);
     if (split.span == 0) {
       state.history = GrowingRegion::LeftAlone;
       return true;
@@ -242,7 +249,8 @@ class RefinementWalk {
     split.boundary_run = 1;
     if (run < 2) return false;
     if (run == 2) return true;
-    const unsigned symbol = side_.symbol(kBoundaryRun + std::min(run, 8u) - 1, std::min(wanted.boundary_run - 1, 15u));
+    const unsigned symbol =
+        side_.symbol(kBoundaryRun + std::min(run, 8u) - 1, std::min(wanted.boundary_run - 1, 15u));
     split.boundary_run = symbol + 1;
     if (symbol == 15) split.boundary_run += side_.number(kRunExcess, wanted.boundary_run - 16);
     return split.boundary_run < run;
@@ -250,7 +258,8 @@ class RefinementWalk {
 
   bool grow(VertexId v, const SplitMesh::Star& star, const WantedSplit& split) {
     const unsigned new_triangles = split.kind == SplitKind::Inner ? 2 : 1;
-    if (mesh_.vertex_count() == vertices_ || mesh_.triangle_count() + new_triangles > triangles_) return false;
+    if (mesh_.vertex_count() == vertices_ || mesh_.triangle_count() + new_triangles > triangles_)
+      return false;
     const auto wrapped = [&](std::uint32_t i) { return i < star.size ? i : i - star.size; };
     NewRing ring(region_.position[v], split.kind);
     if (split.span == 0) return grow_ear(v, star, split, ring);
@@ -313,7 +322,7 @@ class RefinementWalk {
     const CornerId across = mesh_.opposite(facing);
     if (across == kNone) return;
     // The edge that `facing` faces.
-ring.add_tip(at(SplitMesh::next(facing)) + at(SplitMesh::prev(facing)) - at(across));
+    ring.add_tip(at(SplitMesh::next(facing)) + at(SplitMesh::prev(facing)) - at(across));
   }
 
   GrowingRegion& region_;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 
-#include "server/simplify/collapse_mesh.h"
 #include "server/simplify/star.h"
 
 namespace selvage::bench {
@@ -82,11 +81,40 @@ std::vector<PlannedSplit> turned(std::vector<Step>& steps, const CornerTable& fi
   return splits;
 }
 
+/// Unlike CollapseMesh, also takes away ears: a border vertex's only triangle.
+void collapse(CornerTable& mesh, const Star& star, std::uint32_t place) {
+  const VertexId v = star.ring[place];
+  std::vector<CornerId> nearby(star.corners);
+  for (const CornerId c : star.corners) mesh.vertex_of_corner[c] = v;
+  const std::uint32_t after = star.triangle_after(place), before = star.triangle_before(place);
+  for (const std::uint32_t i : {after, before}) {
+    if (i == kNone) continue;
+    const CornerId c = star.corners[i];
+    const CornerId outer = mesh.opposite[c], inner = mesh.opposite[i == after ? next(c) : prev(c)];
+    if (outer != kNone) mesh.opposite[outer] = inner, nearby.push_back(outer);
+    if (inner != kNone) mesh.opposite[inner] = outer, nearby.push_back(inner);
+    for (const CornerId gone : {c, next(c), prev(c)})
+      mesh.vertex_of_corner[gone] = mesh.opposite[gone] = kNone;
+  }
+  mesh.corner_of_vertex[star.centre] = kNone;
+  // Any corner will do inside, at the border the most clockwise one.
+  for (const CornerId one : nearby) {
+    if (mesh.vertex(one) == kNone) continue;
+    for (const CornerId c : {one, next(one), prev(one)}) {
+      CornerId first = c;
+      for (CornerId further = mesh.swing_cw(c); further != kNone && further != c;
+           further = mesh.swing_cw(further))
+        first = further;
+      mesh.corner_of_vertex[mesh.vertex(c)] = first;
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<Layer> plan_layers(const CornerTable& finest, std::span<const Collapse> collapses,
                                std::span<const std::uint32_t> ends) {
-  CollapseMesh mesh(finest);
+  CornerTable mesh = finest;
   const std::vector<Vec3> nowhere(finest.vertex_count());
   std::vector<std::uint32_t> boundary_run(finest.vertex_count(), 0);
   for (VertexId v = 0; v < finest.vertex_count(); ++v) boundary_run[v] = finest.is_border_vertex(v);
@@ -95,17 +123,17 @@ std::vector<Layer> plan_layers(const CornerTable& finest, std::span<const Collap
   for (std::size_t level = 1; level < ends.size(); ++level) {
     std::vector<Step> steps;
     for (std::uint32_t i = ends[level - 1]; i < ends[level]; ++i) {
-      star.gather(mesh.table(), nowhere, collapses[i].from);
+      star.gather(mesh, nowhere, collapses[i].from);
       const std::uint32_t place = star.place_of(collapses[i].to);
       Step step = noted(star, place);
       step.split.boundary_run = boundary_run[collapses[i].from];
       boundary_run[collapses[i].to] += step.split.boundary_run;
-      const CornerId beyond_ear = mesh.table().opposite[star.corners[0]];
-      mesh.collapse(star, place);
-      note_edges(mesh.table(), beyond_ear, step);
+      const CornerId beyond_ear = mesh.opposite[star.corners[0]];
+      collapse(mesh, star, place);
+      note_edges(mesh, beyond_ear, step);
       steps.push_back(std::move(step));
     }
-    layers.push_back({turned(steps, finest), mesh.table()});
+    layers.push_back({turned(steps, finest), mesh});
   }
   return layers;
 }

@@ -20,7 +20,7 @@ namespace selvage::bench {
 
 /// Corners are the finest region's.
 struct PlannedSplit {
-  VertexId from;                         ///< the vertex that it makes
+  VertexId from;  ///< the vertex that it makes
   SplitKind kind = SplitKind::Inner;
   /// The run of corners that `from` takes, counter-clockwise. An ear takes none, and comes next to `first`.
   CornerId first = kNone, last = kNone;
