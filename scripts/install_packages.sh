@@ -18,12 +18,14 @@ lists=("$root/packages.txt" "$@")
 
 # One name a line, without comments and blanks.
 listed_packages() {
-  local line
-  while IFS= read -r line || [[ -n $line ]]; do
-    line=${line%%#*}
-    line=${line//[[:space:]]/}
-    [[ -z $line ]] || printf '%s\n' "$line"
-  done < <(cat -- "${lists[@]}")
+  local list line
+  for list in "${lists[@]}"; do
+    while IFS= read -r line || [[ -n $line ]]; do
+      line=${line%%#*}
+      line=${line//[[:space:]]/}
+      [[ -z $line ]] || printf '%s\n' "$line"
+    done < "$list"
+  done
 }
 
 is_installed() {
@@ -40,8 +42,11 @@ find_root() {
   fi
 }
 
+for list in "${lists[@]}"; do
+  [[ -r $list ]] || die "$list cannot be read"
+done
 mapfile -t packages < <(listed_packages)
-((${#packages[@]} > 0)) || die "${lists[*]} cannot be read, or names no package"
+((${#packages[@]} > 0)) || die "${lists[*]} names no package"
 
 if ! command -v dpkg-query > /dev/null || ! command -v apt-get > /dev/null; then
   die "this is not a Debian system, so packages cannot be installed for you. Selvage is built on Debian 12;

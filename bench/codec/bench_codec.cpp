@@ -75,12 +75,7 @@ GridMesh whole_grid_mesh(const RepairedMesh& mesh, const Grid& grid) {
   return result;
 }
 
-GridMesh region_grid_mesh(const RegionMesh& region) {
-  GridMesh result{region.positions, {}};
-  for (TriangleId t = 0; t < region.table.triangle_count(); ++t)
-    result.triangles.push_back(region.table.triangle(t));
-  return result;
-}
+GridMesh region_grid_mesh(const RegionMesh& region) { return {region.positions, region.triangles}; }
 
 /// Sums over models; printed as ratios at the end.
 struct Totals {

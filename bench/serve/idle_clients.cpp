@@ -1,143 +1,61 @@
 // SPDX-License-Identifier: MIT
 #include "bench/serve/idle_clients.h"
 
-#include <algorithm>
-#include <atomic>
-#include <chrono>
-#include <poll.h>
+#include <exception>
 #include <stdexcept>
-#include <sys/socket.h>
-#include <thread>
-#include <unistd.h>
+#include <vector>
 
-#include "common/net/frame.h"
-#include "common/net/messages.h"
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/io_context.hpp>
+
+#include "tests/support/raw_peer.h"
 
 namespace selvage::bench {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using testing::RawPeer;
 
-void send_all(int socket, const std::string& text) {
-  if (::send(socket, text.data(), text.size(), MSG_NOSIGNAL) != static_cast<ssize_t>(text.size()))
-    throw std::runtime_error("the server does not take a frame");
+/// The first so many bring what is there once: they are not counted.
+constexpr unsigned kFirst = 100;
+
+asio::awaitable<void> expect(RawPeer& peer, FrameType type) {
+  const auto frame = co_await peer.receive();
+  if (!frame || !frame->is(type)) throw std::runtime_error("the server does not answer as it should");
 }
 
-template <class Message>
-std::string frame_text(const Message& message, std::uint32_t id) {
-  const auto bytes = to_frame(message, id);
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
-/// Reads frames until one of `type`; counts Data bytes.
-void read_until(int socket, FrameBuffer& buffer, FrameType type, std::uint64_t& data) {
-  for (;;) {
-    const auto frame = buffer.take();
-    if (!frame) throw std::runtime_error(frame.error().message);
-    if (frame->has_value()) {
-      if ((*frame)->is(FrameType::Data)) data += (*frame)->payload.size();
-      if ((*frame)->is(type)) return;
-      continue;
-    }
-    const auto room = buffer.writable();
-    const ssize_t got = ::recv(socket, room.data(), room.size(), 0);
-    if (got <= 0) throw std::runtime_error("the server hung up");
-    buffer.commit(static_cast<std::size_t>(got));
+asio::awaitable<void> hold(const Process& server, Destination to, IdleCost& cost) {
+  const Hello hello;
+  const Ping ping;
+  std::vector<std::unique_ptr<RawPeer>> peers;
+  std::uint64_t before = 0;
+  for (unsigned i = 0; i < cost.connections + kFirst; ++i) {
+    if (i == kFirst) before = server.anonymous_bytes();
+    std::unique_ptr<ByteStream> stream = co_await connect(to);
+    const Result<void> ready = co_await stream->handshake();
+    if (!ready) throw std::runtime_error(ready.error().message);
+    peers.push_back(std::make_unique<RawPeer>(std::move(stream)));
+    co_await peers.back()->send(hello);
+    co_await expect(*peers.back(), FrameType::HelloAck);
   }
-}
-
-std::string get_all(const std::string& model, std::uint32_t id) {
-  GetParts get;
-  get.model = model;
-  get.selection.joins = Joins::None;
-  return frame_text(get, id);
+  cost.bytes_each = static_cast<double>(server.anonymous_bytes() - before) / cost.connections;
+  for (unsigned i = kFirst; i < peers.size(); ++i) {
+    co_await peers[i]->send(ping, 7);
+    co_await expect(*peers[i], FrameType::Pong);
+    ++cost.answered;
+  }
 }
 
 }  // namespace
 
-IdleCost hold_idle(const Peer& selvage, unsigned connections) {
-  const std::string hello = frame_text(Hello{}, 0), ping = frame_text(Ping{}, 7);
-  std::vector<int> sockets;
-  std::uint64_t before = 0;
-  // The first hundred bring what is there once: they are not counted.
-  for (unsigned i = 0; i < connections + 100; ++i) {
-    if (i == 100) before = selvage.process->anonymous_bytes();
-    sockets.push_back(connect_to(selvage.port));
-    send_all(sockets.back(), hello);
-    FrameBuffer buffer(kMaxPayload, 256);
-    std::uint64_t data = 0;
-    read_until(sockets.back(), buffer, FrameType::HelloAck, data);
-  }
+IdleCost hold_idle(const Process& server, const Destination& to, unsigned connections) {
+  asio::io_context io;
   IdleCost cost;
   cost.connections = connections;
-  cost.bytes_each = static_cast<double>(selvage.process->anonymous_bytes() - before) / connections;
-  for (std::size_t i = 100; i < sockets.size(); ++i) {
-    FrameBuffer buffer(kMaxPayload, 256);
-    std::uint64_t data = 0;
-    send_all(sockets[i], ping);
-    read_until(sockets[i], buffer, FrameType::Pong, data);
-    ++cost.answered;
-  }
-  for (int socket : sockets) ::close(socket);
+  std::exception_ptr thrown;
+  asio::co_spawn(io, hold(server, to, cost), [&](std::exception_ptr exception) { thrown = exception; });
+  io.run();
+  if (thrown) std::rethrow_exception(thrown);
   return cost;
-}
-
-PingTimes ping_under_bulk(const Peer& selvage, const std::string& model, unsigned others, double seconds) {
-  std::atomic<bool> stop = false;
-  const auto saturate = [&] {
-    const int socket = connect_to(selvage.port);
-    FrameBuffer buffer(kMaxPayload, 256 << 10);
-    std::uint64_t data = 0;
-    send_all(socket, hello_bytes() + get_all(model, 1) + get_all(model, 2));
-    for (std::uint32_t id = 3; !stop; ++id) {
-      read_until(socket, buffer, FrameType::RequestEnd, data);
-      send_all(socket, get_all(model, id));
-    }
-    ::close(socket);
-  };
-  std::vector<std::jthread> threads;
-  for (unsigned i = 0; i < others; ++i) threads.emplace_back(saturate);
-
-  const int socket = connect_to(selvage.port);
-  FrameBuffer buffer(kMaxPayload, 256 << 10);
-  send_all(socket, hello_bytes() + get_all(model, 1) + get_all(model, 2));
-  std::vector<double> times;
-  std::uint64_t data = 0;
-  std::uint32_t id = 3;
-  const auto start = Clock::now();
-  auto asked = start;
-  send_all(socket, frame_text(Ping{}, 999));
-  while (Clock::now() - start < std::chrono::duration<double>(seconds)) {
-    const auto frame = buffer.take();
-    if (!frame) throw std::runtime_error(frame.error().message);
-    if (!frame->has_value()) {
-      const auto room = buffer.writable();
-      const ssize_t got = ::recv(socket, room.data(), room.size(), 0);
-      if (got <= 0) throw std::runtime_error("the server hung up");
-      buffer.commit(static_cast<std::size_t>(got));
-    } else if ((*frame)->is(FrameType::Data)) {
-      data += (*frame)->payload.size();
-    } else if ((*frame)->is(FrameType::RequestEnd)) {
-      send_all(socket, get_all(model, id++));
-    } else if ((*frame)->is(FrameType::Pong)) {
-      times.push_back(std::chrono::duration<double>(Clock::now() - asked).count());
-      asked = Clock::now();
-      send_all(socket, frame_text(Ping{}, 999));
-    }
-  }
-  stop = true;
-  threads.clear();
-  ::close(socket);
-
-  PingTimes result;
-  std::ranges::sort(times);
-  result.pings = times.size();
-  if (times.empty()) return result;
-  result.median = times[times.size() / 2];
-  result.p99 = times[times.size() * 99 / 100];
-  result.worst = times.back();
-  result.bulk_bytes_per_second = static_cast<double>(data) / seconds;
-  return result;
 }
 
 }  // namespace selvage::bench

@@ -3,9 +3,8 @@
 // Connections that said hello and then nothing: what does each cost the server?
 #pragma once
 
-#include <cstdint>
-
-#include "bench/serve/peers.h"
+#include "bench/serve/destination.h"
+#include "bench/serve/process.h"
 
 namespace selvage::bench {
 
@@ -14,15 +13,7 @@ struct IdleCost {
   unsigned answered = 0;  ///< a ping each, after all were there
   double bytes_each = 0;  ///< of the server's own memory
 };
-IdleCost hold_idle(const Peer& selvage, unsigned connections);
-
-struct PingTimes {
-  std::size_t pings = 0;
-  double median = 0, p99 = 0, worst = 0;  ///< seconds
-  double bulk_bytes_per_second = 0;
-};
-/// Pings on a connection whose own answer, of all of a model again and again, saturates it; `others`
-/// connections do the same meanwhile.
-PingTimes ping_under_bulk(const Peer& selvage, const std::string& model, unsigned others, double seconds);
+/// `server` listens at `to`. Throws when it does not take them all.
+IdleCost hold_idle(const Process& server, const Destination& to, unsigned connections);
 
 }  // namespace selvage::bench

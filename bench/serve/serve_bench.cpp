@@ -11,10 +11,12 @@
 
 #include <CLI/CLI.hpp>
 
+#include "bench/serve/bulk_pings.h"
 #include "bench/serve/closed_loop.h"
 #include "bench/serve/idle_clients.h"
 #include "bench/serve/peers.h"
 #include "bench/serve/private_network.h"
+#include "tests/support/certificates.h"
 
 namespace {
 
@@ -81,6 +83,28 @@ void compare(const Peer& selvage, const Peer& nginx, const Pack& pack, const Wor
   std::fflush(stdout);
 }
 
+/// Plain connections, and a tenth as many over TLS.
+void hold_idle(const std::string& server, const std::filesystem::path& folder, unsigned connections) {
+  const testing::TestAuthority authority(folder, "idle");
+  const TlsServerFiles files = authority.issue({});
+  const std::string most = std::to_string(connections + 200);
+  const std::vector<std::string> limits{"--max-connections", most, "--max-connections-per-address", most};
+  for (const bool is_encrypted : {false, true}) {
+    std::vector<std::string> options = limits;
+    Destination to{{"127.0.0.1", 0}, {}};
+    if (is_encrypted) {
+      options.insert(options.end(), {"--cert", files.certificate.string(), "--key", files.key.string()});
+      to.ca = authority.certificate();
+    }
+    const Peer fresh = start_selvage(server, folder, options);
+    to.address.port = fresh.port;
+    const IdleCost cost = hold_idle(*fresh.process, to, is_encrypted ? connections / 10 : connections);
+    std::printf("idle%s: %u connections held, %u answered a ping, %.0f bytes of the server's memory each\n",
+                is_encrypted ? ", TLS 1.3" : "", cost.connections, cost.answered, cost.bytes_each);
+    std::fflush(stdout);
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) try {
@@ -131,12 +155,7 @@ int main(int argc, char** argv) try {
     }
   }
   if (idle == 0) return 0;
-  const std::string most = std::to_string(idle + 200);
-  const Peer fresh = start_selvage(server, folder.path(),
-                                   {"--max-connections", most, "--max-connections-per-address", most});
-  const IdleCost cost = hold_idle(fresh, idle);
-  std::printf("idle: %u connections held, %u answered a ping, %.0f bytes of the server's memory each\n",
-              cost.connections, cost.answered, cost.bytes_each);
+  hold_idle(server, folder.path(), idle);
   return 0;
 } catch (const std::exception& exception) {
   std::fprintf(stderr, "serve_bench: %s\n", exception.what());

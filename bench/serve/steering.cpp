@@ -12,7 +12,6 @@
 
 #include "bench/serve/counted_stream.h"
 #include "common/net/messages.h"
-#include "common/net/tls.h"
 #include "tests/support/raw_peer.h"
 
 namespace selvage::bench {
@@ -43,16 +42,8 @@ struct Line {
 };
 
 asio::awaitable<void> connect(Line& line, Destination to) {
-  Result<asio::ip::tcp::socket> socket =
-      co_await connect_socket(to.address.host, to.address.port, std::chrono::seconds(10));
-  if (!socket) throw std::runtime_error(socket.error().message);
+  std::unique_ptr<ByteStream> stream = co_await connect(std::move(to));
   line.connected = Clock::now();
-  std::unique_ptr<ByteStream> stream;
-  if (to.ca) {
-    stream = make_tls_stream(std::move(*socket), tls_client_context(*to.ca).value(), to.address.host);
-  } else {
-    stream = make_tcp_stream(std::move(*socket));
-  }
   const Result<void> ready = co_await stream->handshake();
   if (!ready) throw std::runtime_error(ready.error().message);
   line.peer = std::make_unique<RawPeer>(std::make_unique<CountedStream>(std::move(stream), line.received));

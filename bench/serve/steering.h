@@ -5,20 +5,12 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "common/net/tcp_stream.h"
+#include "bench/serve/destination.h"
 
 namespace selvage::bench {
-
-/// A server to talk to, and whom to trust if it encrypts.
-struct Destination {
-  HostPort address;
-  std::optional<std::filesystem::path> ca;
-};
 
 /// Seconds from the established connection until the first bytes of a region are there (as many as one frame
 /// holds), where hello, open and get travel in one flight; over TLS the handshake counts.

@@ -9,6 +9,7 @@
 
 #include "bench/train/least_squares.h"
 #include "bench/train/model_fit.h"
+#include "client/decode/connectivity_decoder.h"
 #include "client/decode/region_decoder.h"
 #include "common/codec/geometry_walk.h"
 #include "common/codec/region_format.h"
@@ -23,6 +24,8 @@ using Sequence = std::vector<Token>;
 /// A region as the decoder sees it, and what is taken as the shipped tables had it coded.
 struct TrainingRegion {
   RegionMesh mesh;
+  FanTable table;
+  std::vector<GridPoint> positions;  ///< by vertex of `table`
   GridBox box;
   Sequence symbols;
 };
@@ -68,6 +71,35 @@ void add_exact_parts(const RepairedMesh& mesh, const Partition& partition, Train
       source, make_grid(positions, 14), serial_for(), [] {}, hooks);
 }
 
+/// What vertices of `table` are in the mesh that it became.
+std::vector<GridPoint> positions_in(const FanTable& table, const RegionMesh& mesh) {
+  std::vector<GridPoint> positions(table.vertex_count());
+  FanWalk::Memory memory;
+  FanWalk walk(table, table.vertex_count(), memory);
+  for (Fan fan; walk.turn();) {
+    walk.offer();
+    walk.gather(fan);
+    positions[fan.old_number] = mesh.positions[walk.count() - 1];
+  }
+  return positions;
+}
+
+TrainingRegion training_region(std::span<const std::byte> part, const DecodeLimits& limits,
+                               const CodecTables& tables, Sequence symbols) {
+  auto mesh = decode_region(part, limits, tables);
+  if (!mesh) {
+    std::fprintf(stderr, "%s\n", mesh.error().message.c_str());
+    std::abort();
+  }
+  TrainingRegion region{std::move(*mesh), {}, {}, {limits.box_min, limits.box_max}, std::move(symbols)};
+  if (limits.triangles > 0) {
+    EntropyDecoder in(part.subspan(1), tables.region);
+    (void)decode_connectivity(in, limits.triangles, region.table);
+    region.positions = positions_in(region.table, region.mesh);
+  }
+  return region;
+}
+
 /// Every model at two of the four usual numbers of bits and three of five sizes of region, in turn, and in
 /// one of them bit for bit.
 TrainingSet make_training_set(const std::vector<const Model*>& models) {
@@ -98,12 +130,8 @@ TrainingSet make_training_set(const std::vector<const Model*>& models) {
       for (RegionId id = 0; id <= partition.region_count; ++id) {
         const RegionEntry& entry = encoded.directory.regions[id];
         for (const LevelEntry& level : entry.levels) {
-          auto region =
-              decode_region(*part++, {level.vertices, level.triangles, entry.box_min, entry.box_max}, tables);
-          if (!region)
-            std::fprintf(stderr, "%s: %s\n", models[i]->name.c_str(), region.error().message.c_str()),
-                std::abort();
-          set.regions.push_back({std::move(*region), {entry.box_min, entry.box_max}, std::move(symbols[id])});
+          const DecodeLimits limits{level.vertices, level.triangles, entry.box_min, entry.box_max};
+          set.regions.push_back(training_region(*part++, limits, tables, std::move(symbols[id])));
         }
         if (entry.bundle_triangles > 0) ++part;
       }
@@ -119,12 +147,11 @@ std::int16_t fixed(double value, double scale, double most = 16000) {
 /// Calls visit(walk, surroundings, position) for every vertex that something predicts; `visit` places it.
 void for_each_vertex(const TrainingRegion& region,
                      const std::function<void(GeometryWalk&, const Surroundings&, IntLanes)>& visit) {
-  if (region.mesh.table.triangle_count() == 0) return;
-  const FanTable table(region.mesh.table);
+  if (region.mesh.triangles.empty()) return;
   GeometryWalk::Memory memory;
-  GeometryWalk walk(table, table.vertex_count(), region.box.extent(), memory);
+  GeometryWalk walk(region.table, region.table.vertex_count(), region.box.extent(), memory);
   for (Surroundings around{}; walk.next_vertex(around);) {
-    const GridPoint& position = region.mesh.positions[walk.old_number()];
+    const GridPoint& position = region.positions[walk.old_number()];
     if (!around.has_neighbours) {
       walk.place_first(position);
     } else {
@@ -143,8 +170,8 @@ std::array<ShapeWeights, kShapeClasses> fit_shape(const TrainingSet& set) {
         if (around.parallelograms > 0) {
           // At least a 32nd of the reach: where all is flat and regular, one outlier would decide
           // everything.
-          const double expected =
-              std::exp2(std::max({around.logs[0], around.logs[2], around.logs[3] - 40}) / 8.0) / 4;
+          const FloatLanes logs = around.logs * (1 / kLogUnit);
+          const double expected = std::exp2(std::max({logs[0], logs[2], logs[3] - 40}) / 8.0) / 4;
           for (int axis = 0; axis < 3; ++axis) {
             const double y = position[axis] - double{around.mean[axis]};
             error += std::abs(y);
@@ -223,8 +250,8 @@ TrainedTables train(const std::vector<const Model*>& models) {
   std::vector<Sequence> parts;
   for (const TrainingRegion& region : set.regions) {
     EntropyEncoder out;
-    if (region.mesh.table.triangle_count() == 0) continue;
-    encode_positions(FanTable(region.mesh.table), region.mesh.positions, region.box, tables.view(), out);
+    if (region.mesh.triangles.empty()) continue;
+    encode_positions(region.table, region.positions, region.box, tables.view(), out);
     encode_turned_and_anchors(region.mesh, out);
     Sequence sequence = region.symbols;
     sequence.insert(sequence.end(), out.tokens().begin(), out.tokens().end());

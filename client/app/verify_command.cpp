@@ -6,7 +6,6 @@
 
 #include "client/app/model_source.h"
 #include "client/stitch/decode_limits.h"
-#include "common/mesh/check_corner_table.h"
 #include "common/pack/pack.h"
 
 namespace selvage {
@@ -23,7 +22,7 @@ Result<void> verify_regions(const Pack& pack) {
       if (auto ok = check_part(part, pack.part(part)); !ok) return forward_error(ok, where);
       auto mesh = decode_region(pack.part(part), decode_limits(directory, id, level));
       if (!mesh) return forward_error(mesh, where);
-      if (auto ok = check_corner_table(mesh->table); !ok) return forward_error(ok, where);
+      if (auto ok = check_region_mesh(*mesh); !ok) return forward_error(ok, where);
     }
   }
   return {};

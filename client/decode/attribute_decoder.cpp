@@ -29,9 +29,11 @@ struct Residual {
   /// The model told `coarse`; the bits are the lowest ones of `window`.
   Residual(std::uint32_t coarse, int low_bits, std::uint64_t window)
       : bits(low_bits + ((coarse | static_cast<unsigned>(low_bits)) != 0)) {
-    const auto raw = static_cast<std::uint32_t>(window);
-    magnitude = static_cast<std::int32_t>(coarse << low_bits | (raw >> 1 & ((1u << low_bits) - 1)));
-    const auto sign = static_cast<std::int32_t>(raw & 1);
+    // The sign is the lowest bit; without low bits and magnitude it is another's, and 0 has none.
+    const std::uint32_t whole =
+        coarse << 1 << low_bits | (static_cast<std::uint32_t>(window) & ((2u << low_bits) - 1));
+    magnitude = static_cast<std::int32_t>(whole >> 1);
+    const auto sign = static_cast<std::int32_t>(whole & 1);
     value = (magnitude ^ -sign) + sign;
   }
 };
@@ -108,7 +110,7 @@ std::vector<bool> decode_turned(Decoder& in, std::uint32_t triangles) {
 }
 
 bool decode_anchors(Decoder& in, RegionMesh& mesh) {
-  const std::vector<VertexId> order = anchor_order(mesh.loops, mesh.table.vertex_count());
+  const std::vector<VertexId> order = anchor_order(mesh.loops, mesh.vertex_count());
   const std::uint32_t count = in.number(region_model::kAnchorCount);
   if (count > order.size() || count == 0) return false;
   std::uint64_t next_place = 0;
@@ -150,8 +152,8 @@ Result<void> decode_positions(Decoder& in, const GridBox& box, std::uint32_t ver
   if (!walk.order().is_complete() || walk.count() != vertices)
     return corrupt("not the promised number of vertices");
   mesh.positions = walk.positions();
-  mesh.table = walk.order().plain_table();
-  mesh.loops = find_boundary_loops(mesh.table, walk.order().border_vertices());
+  mesh.triangles = walk.order().triangles();
+  mesh.loops = walk.order().boundary_loops();
   return {};
 }
 
@@ -165,7 +167,8 @@ Result<void> decode_loose_positions(Decoder& in, std::uint32_t count, const Grid
 }
 
 Result<void> decode_turned_and_anchors(Decoder& in, const RegionPartHeader& header, RegionMesh& mesh) {
-  if (header.has_turned) mesh.is_turned = decode_turned(in, mesh.table.triangle_count());
+  if (header.has_turned)
+    mesh.is_turned = decode_turned(in, static_cast<std::uint32_t>(mesh.triangles.size()));
   if (header.has_anchors && !decode_anchors(in, mesh)) return corrupt("impossible anchors");
   if (!in.is_finished()) return corrupt("bytes left over or missing");
   return {};

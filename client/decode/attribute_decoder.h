@@ -12,7 +12,7 @@ namespace selvage {
 // The mirrors of server/encode/attribute_encoder.h.
 
 /// Numbers the vertices of `table`, which must be `vertices` fans of corners, in coding order; fills the
-/// mesh's table, positions and loops.
+/// mesh's triangles, positions and loops.
 Result<void> decode_positions(EntropyDecoder& in, const GridBox& box, std::uint32_t vertices,
                               const CodecTables& tables, const FanTable& table, GeometryWalk::Memory& memory,
                               RegionMesh& mesh);

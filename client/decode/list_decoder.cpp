@@ -62,7 +62,7 @@ bool decode_signs(EntropyDecoder& in, std::uint64_t most, std::vector<AxisSigns>
       const unsigned symbol = in.symbol(context.model(signs, axis));
       if (symbol > 3) return false;
       signs[axis] = static_cast<std::uint8_t>(symbol);
-      counts[axis] += static_cast<unsigned>(std::popcount(symbol));
+      counts[axis] += (symbol & 1) + (symbol >> 1);
     }
     context.add(signs);
   }
@@ -86,16 +86,19 @@ bool decode_lists(EntropyDecoder& in, std::uint32_t vertices, bool is_exact, Val
   return true;
 }
 
-bool decode_place(EntropyDecoder& in, const PlaceWalk::Guess& guess, std::size_t count,
-                  std::uint32_t& place) {
-  const unsigned symbol = in.symbol(guess.model);
-  if (symbol < guess.count) {
-    place = guess.candidates[symbol];
+bool decode_place(EntropyDecoder& in, const PlaceWalk& walk, const Fan& fan, const PlaceWalk::Around& around,
+                  std::size_t count, std::uint32_t& place) {
+  const unsigned symbol = in.symbol(around.model);
+  if (symbol != PlaceWalk::kNoCandidate) {
+    const PlaceWalk::Candidates candidates = walk.candidates(fan, around, symbol + 1);
+    if (symbol >= candidates.count) return false;
+    place = candidates.places[symbol];
     return true;
   }
-  const std::uint64_t folded = std::uint64_t{in.number(guess.step_model)} + 1;
-  if (symbol != PlaceWalk::Guess::kNoCandidate || folded >> 32 != 0) return false;
-  const std::int64_t found = std::int64_t{guess.expected} + unfold_sign(static_cast<std::uint32_t>(folded));
+  const std::uint64_t folded = std::uint64_t{in.number(around.step_model)} + 1;
+  if (folded >> 32 != 0) return false;
+  const std::int64_t found =
+      std::int64_t{walk.expected(fan, around)} + unfold_sign(static_cast<std::uint32_t>(folded));
   place = static_cast<std::uint32_t>(found);
   return found >= 0 && static_cast<std::uint64_t>(found) < count;
 }
@@ -132,9 +135,9 @@ bool decode_places(EntropyDecoder& in, const ValueLists& lists, const GridBox& b
         place = static_cast<std::uint32_t>(in.uniform(lists[axis].size()));
         walk.place_first(axis, place);
       } else {
-        const PlaceWalk::Guess guess = walk.guess(fan, axis);
-        if (!decode_place(in, guess, lists[axis].size(), place)) return false;
-        walk.place(guess, axis, place);
+        const PlaceWalk::Around around = walk.look_around(fan, axis);
+        if (!decode_place(in, walk, fan, around, lists[axis].size(), place)) return false;
+        walk.place(around, place);
       }
       values[axis] = lists[axis][place];
     }
@@ -154,8 +157,8 @@ Result<void> decode_listed_positions(EntropyDecoder& in, const GridBox& box, std
   FanWalk order(table, vertices, memory);
   if (!decode_places(in, lists, box, exact, order, vertices, mesh))
     return corrupt("impossible places, or not the promised vertices");
-  mesh.table = order.plain_table();
-  mesh.loops = find_boundary_loops(mesh.table, order.border_vertices());
+  mesh.triangles = order.triangles();
+  mesh.loops = order.boundary_loops();
   return {};
 }
 

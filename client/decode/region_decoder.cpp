@@ -19,7 +19,6 @@ namespace {
 bool decode_loose_vertices(EntropyDecoder& in, std::uint32_t expected, RegionMesh& mesh) {
   const std::uint32_t count = in.number(region_model::kLooseCount);
   if (count == 0 || count != expected) return false;
-  mesh.table.set_corner_of_vertex(count);
   mesh.loops.vertices.resize(count);
   std::iota(mesh.loops.vertices.begin(), mesh.loops.vertices.end(), VertexId{0});
   mesh.loops.lengths = {count};

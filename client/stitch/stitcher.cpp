@@ -129,9 +129,9 @@ Vec3 Stitcher::position_of(const VertexOwner& owner) const {
 std::vector<Triangle> Stitcher::triangles_of(const Region& region) const {
   std::vector<Triangle> triangles;
   const RegionMesh& mesh = region.mesh;
-  triangles.reserve(mesh.table.triangle_count());
-  for (TriangleId t = 0; t < mesh.table.triangle_count(); ++t) {
-    const auto [a, b, c] = mesh.table.triangle(t);
+  triangles.reserve(mesh.triangles.size());
+  for (TriangleId t = 0; t < mesh.triangles.size(); ++t) {
+    const auto [a, b, c] = mesh.triangles[t];
     append_triangle(triangles, {region.numbers[a], region.numbers[b], region.numbers[c]},
                     !mesh.is_turned.empty() && mesh.is_turned[t]);
   }
@@ -207,7 +207,7 @@ void Stitcher::list_patches(StitchUpdate& update) {
   for (const RegionId id : changed_regions_) {
     const auto region = regions_.find(id);
     const bool is_there = region != regions_.end();
-    if (is_there) elements_visited_ += region->second.mesh.table.triangle_count();
+    if (is_there) elements_visited_ += region->second.mesh.triangles.size();
     list({PatchId::Kind::Region, {id, kNone, kNone}},
          is_there ? triangles_of(region->second) : std::vector<Triangle>());
   }

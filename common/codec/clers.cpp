@@ -16,13 +16,14 @@ bool ClersGrower::split(FanCorner gate) {
   if (left_head == tail || left_head == head || left_tail == tail || left_tail == head) return false;
   const FanCorner arriving_at_tail = arriving(tail);
   const VertexId joined = merge(tail, gate + 1, left_head, prev_on(left));
-  arriving(joined) = arriving_at_tail;
-  const FanCorner tip = add_triangle(joined, left_tail, head);
+  const FanCorner tip = table_.add_triangle(joined, left_tail, head);
   table_.glue(tip + 1, gate);
   table_.glue(tip + 2, left);
-  arriving(head) = tip;
-  gates_.back() = tip;
+  add_to_fan(joined, arriving_at_tail);
+  gate_ = tip;
   tail_ = left_tail;
+  const std::uint32_t around_tail = add_to_fan(tail_);
+  context_ = context_after(Clers::S, around_tail, add_to_fan(head, tip));
   return true;
 }
 
@@ -32,13 +33,14 @@ FanCorner ClersGrower::left_branch_of_split() {
     const HandleSplit& handle = splits_[next_split_++];
     return handle.source < grown ? 8 * handle.source + (handle.is_left ? 2 : 1) : kNone;
   }
-  if (gates_.size() < 2) return kNone;
-  const FanCorner left = gates_[gates_.size() - 2];
+  if (gates_.empty()) return kNone;
+  const FanCorner left = gates_.back();
   gates_.pop_back();
   return left;
 }
 
 std::uint32_t ClersGrower::finish() {
+  if (gate_ != kNone) gates_.push_back(gate_);
   const auto components = static_cast<std::uint32_t>(gates_.size());
   table_.make_room_for(components);
   return components;
@@ -53,7 +55,7 @@ bool ClersGrower::close(std::uint32_t gate) {
   const VertexId w = table_.next_vertex(facing_wu);
   const FanCorner facing_vw = arriving(w);
   if (table_.next_vertex(facing_vw) != v || w == u || v == u) return false;
-  const FanCorner tip = add_triangle(w, v, u);
+  const FanCorner tip = table_.add_triangle(w, v, u);
   table_.glue(tip, facing_uv);
   table_.glue(tip + 1, facing_wu);
   table_.glue(tip + 2, facing_vw);
@@ -63,12 +65,11 @@ bool ClersGrower::close(std::uint32_t gate) {
 
 /// Joins two open fans into one vertex. The smaller one is renamed, so all merges together take O(n log n).
 VertexId ClersGrower::merge(VertexId a, FanCorner corner_a, VertexId b, FanCorner corner_b) {
-  std::vector<FanTable::Vertex>& vertices = table_.vertices;
-  const bool keeps_a = vertices[a].triangles >= vertices[b].triangles;
+  const bool keeps_a = triangles(a) >= triangles(b);
   const VertexId kept = keeps_a ? a : b, gone = keeps_a ? b : a;
   rename_fan(keeps_a ? corner_b : corner_a, kept);
-  vertices[kept].triangles += vertices[gone].triangles;
-  vertices[gone].triangles = 0;
+  table_.at(kept).triangles += triangles(gone);
+  table_.at(gone).triangles = 0;
   return kept;
 }
 

@@ -48,7 +48,7 @@ class ClersGrower {
   ClersGrower(std::vector<HandleSplit> splits, std::uint32_t triangles, FanTable& table);
 
   /// The model of the next symbol: by the last symbol and how many triangles surround the gate's two ends.
-  unsigned context() const;
+  unsigned context() const { return context_; }
 
   /// Glues the next of the announced triangles. False if no mesh has this symbol here: the stream is corrupt.
   bool grow(Clers symbol);
@@ -63,13 +63,14 @@ class ClersGrower {
  private:
   // A vertex of the growing border has one open fan, and so one border edge that arrives at it; its corner is
   // the one that faces this edge.
-  FanCorner& arriving(VertexId v) { return table_.vertices[v].corner; }
-  FanCorner arriving(VertexId v) const { return table_.vertices[v].corner; }
+  FanCorner& arriving(VertexId v) { return table_.at(v).corner; }
+  FanCorner arriving(VertexId v) const { return table_.at(v).corner; }
 
-  std::uint32_t triangles(VertexId v) const { return table_.vertices[v].triangles; }
-  FanCorner add_triangle(VertexId tip, VertexId after, VertexId before);
-  VertexId add_vertex();
+  std::uint32_t triangles(VertexId v) const { return table_.at(v).triangles; }
+  static unsigned context_after(Clers last, std::uint32_t around_tail, std::uint32_t around_head);
   void close_fan(VertexId v, FanCorner own);
+  std::uint32_t add_to_fan(VertexId v);
+  std::uint32_t add_to_fan(VertexId v, FanCorner arriving);
   bool is_open(FanCorner c) const { return arriving(table_.vertex(prev_on(c))) == c; }
   bool split(FanCorner gate);
   FanCorner left_branch_of_split();
@@ -79,32 +80,29 @@ class ClersGrower {
   FanTable& table_;
   std::vector<HandleSplit> splits_;
   std::size_t next_split_ = 0;
-  std::vector<FanCorner> gates_;          ///< tips that face the open gates, the current one on top
+  FanCorner gate_ = kNone;                ///< the tip that faces the current gate
+  std::vector<FanCorner> gates_;          ///< the others that are open; the one to come back to on top
   VertexId tail_ = kNone, head_ = kNone;  ///< of the current gate
-  Clers last_ = Clers::E;
+  unsigned context_ = context_after(Clers::E, 1, 1);
 };
 
-inline unsigned ClersGrower::context() const {
+inline unsigned ClersGrower::context_after(Clers last, std::uint32_t around_tail, std::uint32_t around_head) {
   constexpr unsigned kCounts = region_model::kClersCounts;
-  const unsigned last = static_cast<unsigned>(last_) * kCounts * kCounts;
-  if (gates_.empty()) return last;
-  return last + (std::min(triangles(tail_), kCounts) - 1) * kCounts + std::min(triangles(head_), kCounts) - 1;
+  return (static_cast<unsigned>(last) * kCounts + std::min(around_tail, kCounts) - 1) * kCounts +
+         std::min(around_head, kCounts) - 1;
 }
 
-[[gnu::always_inline]] inline FanCorner ClersGrower::add_triangle(VertexId tip, VertexId after,
-                                                                  VertexId before) {
-  for (VertexId v : {tip, after, before}) ++table_.vertices[v].triangles;
-  return table_.add_triangle(tip, after, before);
-}
-
-[[gnu::always_inline]] inline VertexId ClersGrower::add_vertex() {
-  table_.vertices.emplace_back();
-  return table_.vertex_count() - 1;
-}
-
+/// Its border is used up by a triangle that has this corner there.
 inline void ClersGrower::close_fan(VertexId v, FanCorner own) {
-  table_.vertices[v].triangles |= FanTable::Vertex::kIsInside;
-  table_.vertices[v].corner = own;
+  table_.at(v) = {(triangles(v) + 1) | FanTable::Vertex::kIsInside, own};
+}
+
+/// Gives how many triangles the fan has now; with the border edge that arrives at v.
+inline std::uint32_t ClersGrower::add_to_fan(VertexId v) { return ++table_.at(v).triangles; }
+inline std::uint32_t ClersGrower::add_to_fan(VertexId v, FanCorner arriving) {
+  const std::uint32_t count = triangles(v) + 1;
+  table_.at(v) = {count, arriving};
+  return count;
 }
 
 // The gate runs from tail to head, and the new triangle's tip corner faces the next gate.
@@ -113,57 +111,57 @@ inline void ClersGrower::close_fan(VertexId v, FanCorner own) {
 // which processors guess right, and need not wait for the symbol.
 [[gnu::always_inline]] inline bool ClersGrower::grow(Clers symbol) {
   if (symbol == Clers::E) {
-    last_ = Clers::E;
-    const VertexId tip = add_vertex(), after = add_vertex(), before = add_vertex();
-    const FanCorner corner = add_triangle(tip, after, before);
-    arriving(before) = corner;
-    arriving(tip) = corner + 1;
-    arriving(after) = corner + 2;
-    gates_.push_back(corner);
-    tail_ = after, head_ = before;
+    const VertexId tip = table_.vertex_count();
+    tail_ = tip + 1, head_ = tip + 2;
+    const FanCorner corner = table_.add_triangle(tip, tail_, head_);
+    table_.add_vertex({1, corner + 1});
+    table_.add_vertex({1, corner + 2});
+    table_.add_vertex({1, corner});
+    if (gate_ != kNone) gates_.push_back(gate_);
+    gate_ = corner;
+    context_ = context_after(Clers::E, 1, 1);
     return true;
   }
   // A handle may have used up the edge that waits here.
-  if (gates_.empty() || arriving(head_) != gates_.back()) return false;
-  const FanCorner gate = gates_.back();
+  if (gate_ == kNone || arriving(head_) != gate_) return false;
+  const FanCorner gate = gate_;
   if (symbol == Clers::C) {
-    last_ = Clers::C;
     // The triangle closes the tail's fan: between the gate and the border edge that arrives at the tail.
     const FanCorner left = arriving(tail_);
     const VertexId after = table_.next_vertex(left);
     if (after == head_) return false;
-    const FanCorner tip = add_triangle(tail_, after, head_);
+    const FanCorner tip = table_.add_triangle(tail_, after, head_);
     table_.glue_new_to_first<1>(tip, gate);
     table_.glue_new<2>(tip, left);
     close_fan(tail_, tip);
-    arriving(head_) = tip;
-    gates_.back() = tip;
+    gate_ = tip;
     tail_ = after;
+    const std::uint32_t around_tail = add_to_fan(tail_);
+    context_ = context_after(Clers::C, around_tail, add_to_fan(head_, tip));
     return true;
   }
   if (symbol == Clers::R) {
-    last_ = Clers::R;
-    const VertexId v = add_vertex();
-    const FanCorner tip = add_triangle(head_, tail_, v);
+    const VertexId v = table_.vertex_count();
+    const FanCorner tip = table_.add_triangle(head_, tail_, v);
     table_.glue_new_to_first<2>(tip, gate);
-    arriving(v) = tip;
-    arriving(head_) = tip + 1;
-    gates_.back() = tip;
+    table_.add_vertex({1, tip});
+    add_to_fan(head_, tip + 1);
+    gate_ = tip;
     head_ = v;
+    context_ = context_after(Clers::R, add_to_fan(tail_), 1);
     return true;
   }
   if (symbol == Clers::L) {
-    last_ = Clers::L;
-    const VertexId v = add_vertex();
-    const FanCorner tip = add_triangle(tail_, v, head_);
+    const VertexId v = table_.vertex_count();
+    const FanCorner tip = table_.add_triangle(tail_, v, head_);
     table_.glue_new_to_first<1>(tip, gate);
-    arriving(v) = tip + 2;
-    arriving(head_) = tip;
-    gates_.back() = tip;
+    table_.add_vertex({1, tip + 2});
+    add_to_fan(tail_);
+    gate_ = tip;
     tail_ = v;
+    context_ = context_after(Clers::L, 1, add_to_fan(head_, tip));
     return true;
   }
-  last_ = Clers::S;
   return split(gate);
 }
 

@@ -18,8 +18,8 @@ std::optional<std::vector<TriangleId>> virtual_fans(const FanTable& table,
                                                     std::span<const VertexId> virtual_vertices) {
   std::vector<TriangleId> fans;
   for (VertexId v : virtual_vertices) {
-    if (table.vertices[v].closed_fan() == 0) return std::nullopt;
-    const FanCorner first = next_on(table.vertices[v].corner);
+    if (table.at(v).closed_fan() == 0) return std::nullopt;
+    const FanCorner first = next_on(table.at(v).corner);
     FanCorner rim = first;
     do {
       fans.push_back(triangle_on(rim));

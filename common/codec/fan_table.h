@@ -21,7 +21,7 @@
 
 #include "common/base/ids.h"
 #include "common/codec/scratch.h"
-#include "common/mesh/corner_table.h"
+#include "common/mesh/triangle_soup.h"
 
 namespace selvage {
 
@@ -46,18 +46,15 @@ class FanTable {
     /// Triangles of a fan that is known to be closed, else 0.
     std::uint32_t closed_fan() const { return triangles >= kIsInside ? triangles - kIsInside : 0; }
   };
-  std::vector<Vertex> vertices;
-
-  FanTable() = default;
-  /// The same mesh. That fans are closed is left for the walk to find.
-  explicit FanTable(const CornerTable& table);
 
   /// Becomes empty, with room for `triangles`.
   void start(std::uint32_t triangles);
   void make_room_for(std::uint32_t more_triangles);
 
   std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(used_ / kWords); }
-  std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(vertices.size()); }
+  std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(vertex_count_); }
+  Vertex& at(VertexId v) { return vertices_.data()[v]; }
+  const Vertex& at(VertexId v) const { return vertices_.data()[v]; }
   VertexId vertex(FanCorner c) const { return words_.data()[c]; }
   VertexId next_vertex(FanCorner c) const { return words_.data()[c + 1]; }
   void prefetch(FanCorner c) const { __builtin_prefetch(words_.data() + c); }
@@ -72,6 +69,8 @@ class FanTable {
   /// The same vertex's corner in the next triangle clockwise; kNone past a border.
   FanCorner swing_cw(FanCorner c) const { return turn_of_prev(c); }
 
+  /// There is always room for one more.
+  [[gnu::always_inline]] void add_vertex(Vertex vertex);
   /// A triangle without neighbours; gives its first corner. There must be room.
   [[gnu::always_inline]] FanCorner add_triangle(VertexId a, VertexId b, VertexId c);
   void glue(FanCorner a, FanCorner b) {
@@ -91,12 +90,12 @@ class FanTable {
     words_.data()[to + kTurns] = first + (kPlace + 2) % 3;
   }
   /// Takes triangles away, given ascending; the last ones of those that stay move to the places that fall
-  /// free, lowest place first. Gives former numbers. What `vertices` says of the corners of those that go
-  /// is no longer known: 0 triangles; of the others, which corner is theirs.
+  /// free, lowest place first. Gives former numbers. What vertices say is no longer known: of the corners of
+  /// those that go, 0 triangles; of the others, which corner is theirs.
   std::vector<TriangleId> drop(std::span<const TriangleId> dropped);
 
-  /// The mesh with vertices renumbered. corner_of_vertex is left empty.
-  CornerTable plain(std::span<const VertexId> number_of_vertex) const;
+  /// The triangles, their vertices renumbered.
+  std::vector<Triangle> triangles(std::span<const VertexId> number_of_vertex) const;
 
  private:
   /// Both words are written, without a jump: they are the same one but for the last corner.
@@ -109,14 +108,22 @@ class FanTable {
     words_.data()[first + kTurns + kPlace] = to;
     if (kPlace == 2) words_.data()[first + kTurns - 1] = to;
   }
+  void make_room_for_vertices();
   void open_edge(FanCorner c);
   void move_triangle(TriangleId from, TriangleId to);
 
   static constexpr std::size_t kWords = 8, kTurns = 5;
 
-  std::size_t used_ = 0;
+  std::size_t used_ = 0, vertex_count_ = 0, vertex_room_ = 0;
   Scratch<std::uint32_t> words_;
+  Scratch<Vertex> vertices_;
 };
+
+inline void FanTable::add_vertex(Vertex vertex) {
+  if (vertex_count_ == vertex_room_) [[unlikely]]
+    make_room_for_vertices();
+  vertices_.data()[vertex_count_++] = vertex;
+}
 
 inline FanCorner FanTable::add_triangle(VertexId a, VertexId b, VertexId c) {
   std::uint32_t* words = words_.data() + used_;

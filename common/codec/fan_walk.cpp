@@ -5,14 +5,14 @@ namespace selvage {
 
 FanWalk::FanWalk(const FanTable& table, std::uint32_t most_vertices, Memory& memory)
     : table_(table),
+      memory_(memory),
       most_vertices_(most_vertices),
       corners_left_(3 * std::size_t{table.triangle_count()}),
       states_(memory.states.make(table.vertex_count())),
-      well_(memory.well.make(table.vertex_count() + 1)),
-      once_(memory.once.make(table.vertex_count() + 1)),
-      rim_of_visited_(memory.rims.make(most_vertices)) {
+      queue_end_{memory.once.make(table.vertex_count()), memory.well.make(table.vertex_count()), &nowhere_},
+      queue_next_{queue_end_[kOnceQueue], queue_end_[kWellQueue]} {
   for (VertexId v = 0; v < table.vertex_count(); ++v) {
-    const std::uint32_t triangles = table.vertices[v].closed_fan();
+    const std::uint32_t triangles = table.at(v).closed_fan();
     states_[v] = kUnvisited + (triangles <= kSteps ? triangles : 0);
   }
 }
@@ -47,7 +47,7 @@ void FanWalk::turn_slowly() {
     const std::uint32_t state = states_[table_.next_vertex(last)];
     ring_.states[Ring::kFirst - collected] = state;
     unknown = unknown * 2 + (state >> 31);
-    border_.push_back(count_);
+    border_.push_back({count_, table_.vertex(next_on(first))});
   }
   corners_left_ -= triangles;
   ring_.neighbours = collected + ring_.is_border;
@@ -55,18 +55,32 @@ void FanWalk::turn_slowly() {
   const bool is_open = ring_.is_border || collected < triangles;
   if (ring_.neighbours > Ring::kMost) ring_.neighbours = Ring::kMost, unknown >>= 1;
   ring_.triangles = ring_.neighbours - is_open;
-  ring_.unknown = unknown << (Ring::kFirst + 1 - ring_.neighbours);
+  ring_.set_unknown(unknown << (Ring::kFirst + 1 - ring_.neighbours), Ring::first_ones(ring_.neighbours),
+                    Ring::first_ones(ring_.triangles));
   if (!is_open) ring_.states[Ring::kFirst - ring_.neighbours] = ring_.states[Ring::kFirst];
 }
 
-CornerTable FanWalk::plain_table() const {
-  CornerTable table = table_.plain(std::span(states_, table_.vertex_count()));
-  table.corner_of_vertex.resize(count_);
-  for (VertexId v = 0; v < count_; ++v) {
-    const FanCorner corner = prev_on(rim_of_visited_[v]);
-    table.corner_of_vertex[v] = corner - 5 * triangle_on(corner);
+std::vector<Triangle> FanWalk::triangles() const {
+  return table_.triangles(std::span(states_, table_.vertex_count()));
+}
+
+BoundaryLoops FanWalk::boundary_loops() {
+  BoundaryLoops loops;
+  loops.vertices.reserve(border_.size());
+  // Nothing is queued any more; a queue serves to find border vertices by their number.
+  VertexId* place_of_number = memory_.once.data();
+  for (VertexId place = 0; place < border_.size(); ++place) place_of_number[border_[place].number] = place;
+  std::vector<bool> is_listed(border_.size());
+  for (VertexId start = 0; start < border_.size(); ++start) {
+    if (is_listed[start]) continue;
+    const std::size_t begin = loops.vertices.size();
+    for (VertexId place = start; !is_listed[place]; place = place_of_number[states_[border_[place].next]]) {
+      is_listed[place] = true;
+      loops.vertices.push_back(border_[place].number);
+    }
+    loops.lengths.push_back(static_cast<std::uint32_t>(loops.vertices.size() - begin));
   }
-  return table;
+  return loops;
 }
 
 }  // namespace selvage

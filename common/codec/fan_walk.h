@@ -8,11 +8,14 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <vector>
 
 #include "common/codec/fan_table.h"
+#include "common/codec/lanes.h"
 #include "common/codec/scratch.h"
+#include "common/mesh/boundary_loops.h"
 
 namespace selvage {
 
@@ -37,11 +40,12 @@ class FanWalk {
   /// What a walk needs room for, kept between walks.
   struct Memory {
     Scratch<std::uint32_t> states;
-    Scratch<FanCorner> well, once, rims;
+    Scratch<FanCorner> well, once;
   };
 
   /// Ends after `most_vertices` at the latest. Borrows `table` and `memory`.
   FanWalk(const FanTable& table, std::uint32_t most_vertices, Memory& memory);
+  FanWalk(const FanWalk&) = delete;
 
   // A visit is three steps, so that a decoder may put each where it would wait for something else.
 
@@ -56,10 +60,12 @@ class FanWalk {
   std::uint32_t count() const { return count_; }
   /// True if no corner of the table is left.
   bool is_complete() const { return corners_left_ == 0; }
-  /// Numbers of the vertices on the border, ascending.
-  std::span<const VertexId> border_vertices() const { return border_; }
-  /// The table with vertices numbered by visit, once the walk is complete.
-  CornerTable plain_table() const;
+
+  // Once the walk is complete, with vertices numbered by visit:
+
+  std::vector<Triangle> triangles() const;
+  /// Takes the room of a queue.
+  BoundaryLoops boundary_loops();
 
  private:
   /// The triangles around a vertex counter-clockwise: each one's corner at the neighbour that it begins with,
@@ -72,17 +78,20 @@ class FanWalk {
     unsigned triangles = 0;
     unsigned neighbours = 0;
     bool is_border = false;
-    std::uint64_t unknown = 0;  ///< of the neighbours
+    std::uint64_t known = 0;  ///< of the neighbours
+    /// Triangles of whose other two vertices both are known, one is, none is.
+    std::uint64_t both_known = 0, one_known = 0, none_known = 0;
     std::array<FanCorner, kFirst + 1> rims;
     std::array<std::uint32_t, kFirst + 1> states;
 
     static std::uint64_t first_ones(unsigned count) { return ~std::uint64_t{0} << (kFirst + 1 - count); }
-    std::uint64_t all_neighbours() const { return first_ones(neighbours); }
-    /// Triangles as bits of the neighbours they begin with.
-    std::uint64_t all_triangles() const { return first_ones(triangles); }
-    /// Of a set of neighbours: the triangles that end with one.
-    std::uint64_t ending_with(std::uint64_t set) const {
-      return set << 1 | set >> kFirst << (kFirst + 1 - neighbours);
+    /// Fills the sets, triangles as bits of the neighbours they begin with.
+    void set_unknown(std::uint64_t unknown, std::uint64_t all_neighbours, std::uint64_t all_triangles) {
+      const std::uint64_t ending_unknown = unknown << 1 | unknown >> kFirst << (kFirst + 1 - neighbours);
+      known = all_neighbours & ~unknown;
+      both_known = all_triangles & ~(unknown | ending_unknown);
+      one_known = all_triangles & (unknown ^ ending_unknown);
+      none_known = all_triangles & unknown & ending_unknown;
     }
     static unsigned lowest(std::uint64_t set) { return static_cast<unsigned>(std::countr_zero(set)); }
     std::uint32_t begin(unsigned place) const { return states[place]; }
@@ -92,7 +101,6 @@ class FanWalk {
   /// A vertex's state is its new number or, above it, how many triangles predict it (kOffered, up to two)
   /// and, if its fan is known to be closed and has up to kSteps triangles, how many they are.
   static constexpr std::uint32_t kUnvisited = 1u << 31, kOffered = 1u << 29, kTriangles = kOffered - 1;
-  static constexpr std::uint32_t kOnce = kUnvisited + kOffered, kWell = kOnce + kOffered;
   static constexpr unsigned kSteps = 8;
 
   bool find_next();
@@ -101,15 +109,22 @@ class FanWalk {
   void look_ahead() const;
 
   const FanTable& table_;
+  Memory& memory_;
   std::uint32_t most_vertices_, count_ = 0;
   std::size_t corners_left_;
-  std::uint32_t* states_;    ///< by old number
-  FanCorner *well_, *once_;  ///< queues of corners
-  std::size_t next_well_ = 0, well_end_ = 0, next_once_ = 0, once_end_ = 0;
+  std::uint32_t* states_;  ///< by old number
+  /// Queues of corners, by how many triangles had offered them before; what has been offered twice goes
+  /// nowhere.
+  enum { kOnceQueue, kWellQueue, kNowhere };
+  FanCorner nowhere_;
+  std::array<FanCorner*, 3> queue_end_;
+  std::array<FanCorner*, 2> queue_next_;
   FanCorner next_seed_ = 0, current_ = kNone;
   Ring ring_;
-  FanCorner* rim_of_visited_;  ///< where its fan begins
-  std::vector<VertexId> border_;
+  struct BorderVertex {
+    VertexId number, next;  ///< `next` along the border, by old number
+  };
+  std::vector<BorderVertex> border_;  ///< ascending
 };
 
 // Called once a vertex, from one place that matters: saving registers would be a tenth of the work.
@@ -117,14 +132,14 @@ class FanWalk {
 
 SELVAGE_ONE_CALLER bool FanWalk::find_next() {
   const auto is_unvisited = [&](FanCorner c) { return states_[table_.vertex(c)] >= kUnvisited; };
-  while (next_well_ < well_end_) {
-    current_ = well_[next_well_++];
-    if (is_unvisited(current_)) return true;
-  }
-  while (next_once_ < once_end_) {
-    current_ = once_[next_once_++];
-    if (is_unvisited(current_)) return true;
-  }
+  const auto take_from = [&](unsigned queue) {
+    while (queue_next_[queue] != queue_end_[queue]) {
+      current_ = *queue_next_[queue]++;
+      if (is_unvisited(current_)) return true;
+    }
+    return false;
+  };
+  if (take_from(kWellQueue) || take_from(kOnceQueue)) return true;
   const FanCorner end = 8 * table_.triangle_count();
   while (next_seed_ < end) {
     current_ = next_seed_;
@@ -148,26 +163,30 @@ SELVAGE_ONE_CALLER bool FanWalk::turn() {
 
 /// Without a branch on the number of triangles: a turn too far goes over the first ones again.
 SELVAGE_ONE_CALLER void FanWalk::turn_inside(unsigned triangles) {
+  static_assert(kSteps == 8);
+  constexpr unsigned kLowest = Ring::kFirst + 1 - kSteps;
   FanCorner rim = next_on(current_);
-  std::uint64_t unknown = 0;
-  for (unsigned place = Ring::kFirst; place > Ring::kFirst - kSteps; --place) {
-    const std::uint32_t state = states_[table_.vertex(rim)];
-    ring_.rims[place] = rim;
-    ring_.states[place] = state;
-    unknown = unknown * 2 + (state >> 31);
+  std::array<std::int32_t, kSteps> states;
+  for (unsigned step = kSteps; step-- > 0;) {
+    ring_.rims[kLowest + step] = rim;
+    states[step] = static_cast<std::int32_t>(states_[table_.vertex(rim)]);
     rim = table_.turn(rim);
   }
-  ring_.unknown = unknown << (Ring::kFirst + 1 - kSteps) & Ring::first_ones(triangles);
-  ring_.states[Ring::kFirst - triangles] = ring_.states[Ring::kFirst];
+  const IntLanes low{states[0], states[1], states[2], states[3]},
+      high{states[4], states[5], states[6], states[7]};
+  std::memcpy(&ring_.states[kLowest], &low, sizeof low);
+  std::memcpy(&ring_.states[kLowest + 4], &high, sizeof high);
+  const std::uint64_t all = Ring::first_ones(triangles), is_unknown = sign_bits(high) << 4 | sign_bits(low);
+  ring_.states[Ring::kFirst - triangles] = static_cast<std::uint32_t>(states[kSteps - 1]);
   ring_.is_border = false;
   ring_.neighbours = ring_.triangles = triangles;
+  ring_.set_unknown(is_unknown << kLowest & all, all, all);
   corners_left_ -= triangles;
 }
 
 /// Fetches the triangles across from two unknown neighbours: nothing has touched them before.
 SELVAGE_ONE_CALLER void FanWalk::look_ahead() const {
-  for (std::uint64_t left = ring_.unknown & ring_.ending_with(ring_.unknown) & ring_.all_triangles();
-       left != 0; left &= left - 1) {
+  for (std::uint64_t left = ring_.none_known; left != 0; left &= left - 1) {
     const FanCorner turned = table_.turn_of_prev(ring_.rims[Ring::lowest(left)]);
     if (turned != kNone) table_.prefetch(turned);
   }
@@ -175,41 +194,37 @@ SELVAGE_ONE_CALLER void FanWalk::look_ahead() const {
 
 /// Triangles that now have two known vertices will predict their third.
 SELVAGE_ONE_CALLER void FanWalk::offer() {
-  const std::uint64_t offered = (ring_.unknown ^ ring_.ending_with(ring_.unknown)) & ring_.all_triangles();
-  for (std::uint64_t left = offered; left != 0; left &= left - 1) {
+  for (std::uint64_t left = ring_.one_known; left != 0; left &= left - 1) {
     const unsigned place = Ring::lowest(left);
     // The neighbour that the triangle begins with, or the next one. Place 3 of a triangle will do.
     const FanCorner corner = ring_.rims[place] + (ring_.begin(place) < kUnvisited);
     std::uint32_t& state = states_[table_.vertex(corner)];
-    // Both are written, one counts; none does if the neighbour has been offered often enough.
-    once_[once_end_] = well_[well_end_] = corner;
-    once_end_ += state < kOnce;
-    well_end_ += state < kWell && state >= kOnce;
-    state += state < kWell ? kOffered : 0;
+    const unsigned queue = (state - kUnvisited) / kOffered, counts = queue < kNowhere;
+    *queue_end_[queue] = corner;
+    queue_end_[queue] += counts;
+    state += counts * kOffered;
   }
 }
 
 SELVAGE_ONE_CALLER void FanWalk::gather(Fan& fan) {
-  const std::uint64_t known = ring_.all_neighbours() & ~ring_.unknown;
-  unsigned m = 0, n = 0;
-  for (std::uint64_t left = known; left != 0; left &= left - 1)
+  unsigned m = 0;
+  for (std::uint64_t left = ring_.known; left != 0; left &= left - 1)
     fan.neighbour[m++] = ring_.begin(Ring::lowest(left));
-  for (std::uint64_t left = known & ring_.ending_with(known) & ring_.all_triangles(); left != 0;
-       left &= left - 1) {
+  Fan::Parallelogram* next = fan.parallelogram.data();
+  for (std::uint64_t left = ring_.both_known; left != 0; left &= left - 1) {
     const unsigned place = Ring::lowest(left);
     const FanCorner turned = table_.turn_of_prev(ring_.rims[place]);
     if (turned == kNone) continue;
     const std::uint32_t across = states_[table_.next_vertex(turned)];
-    fan.parallelogram[n] = {ring_.begin(place), ring_.end(place), across};
-    n += across < kUnvisited;
+    *next = {ring_.begin(place), ring_.end(place), across};
+    next += across < kUnvisited;
   }
   fan.neighbours = m;
-  fan.parallelograms = n;
+  fan.parallelograms = static_cast<unsigned>(next - fan.parallelogram.data());
   fan.old_number = table_.vertex(current_);
   fan.triangles = ring_.triangles;
   fan.is_border = ring_.is_border;
-  states_[fan.old_number] = count_;
-  rim_of_visited_[count_++] = ring_.rims[Ring::kFirst];
+  states_[fan.old_number] = count_++;
 }
 
 #undef SELVAGE_ONE_CALLER

@@ -56,7 +56,7 @@ class GeometryWalk {
   /// Vertices placed so far.
   std::uint32_t count() const { return count_; }
   std::vector<GridPoint> positions() const;
-  const FanWalk& order() const { return order_; }
+  FanWalk& order() { return order_; }
 
  private:
   Fan& fan_of(VertexId v) { return fans_[v % kFans]; }
@@ -97,7 +97,7 @@ inline void set_tangent_plane(FloatLanes normal, Surroundings& around) {
   // Without jumps: which axis it is can't be guessed. By whether x >= y, y >= z and z >= x.
   static constexpr std::uint8_t kAxis[8] = {2, 0, 1, 0, 2, 2, 1, 1};
   const FloatLanes size = absolute(normal);
-  const unsigned axis = kAxis[bits_of(size >= __builtin_shufflevector(size, size, 1, 2, 0, 3)) & 7];
+  const unsigned axis = kAxis[sign_bits(size >= __builtin_shufflevector(size, size, 1, 2, 0, 3)) & 7];
   const float twice[] = {normal[0], normal[1], normal[2], normal[0], normal[1]};
   const float along = twice[axis], scale = along == 0 ? 0 : -1.0F / along;
   around.normal_axis = axis;
@@ -120,7 +120,7 @@ inline void set_tangent_plane(FloatLanes normal, Surroundings& around) {
 
   around.parallelograms = n;
   around.size_class = std::min(n, 3u);
-  around.recent = from_log(recent_);
+  around.recent = to_float(recent_);
   if (n == 0) {
     around.shape_class = 0;
     around.mean = mean_ring;
@@ -128,7 +128,7 @@ inline void set_tangent_plane(FloatLanes normal, Surroundings& around) {
     around.normal_axis = 2;
     around.slopes[0] = around.slopes[1] = 0;
     around.logs =
-        from_log(log_of_magnitudes(__builtin_shufflevector(sizes_nearby, FloatLanes{}, 0, 1, 4, 5)));
+        to_float(log_of_magnitudes(__builtin_shufflevector(sizes_nearby, FloatLanes{}, 0, 1, 4, 5)));
     return;
   }
 
@@ -152,7 +152,7 @@ inline void set_tangent_plane(FloatLanes normal, Surroundings& around) {
   around.ring = mean_ring - edge;
   around.trend = mean_error;
   const FloatLanes sums = sums_of_three(absolute(to_float(tip) - mean), absolute(around.beyond));
-  around.logs = from_log(log_of_magnitudes(__builtin_shufflevector(sizes_nearby, sums, 0, 1, 4, 5)));
+  around.logs = to_float(log_of_magnitudes(__builtin_shufflevector(sizes_nearby, sums, 0, 1, 4, 5)));
   set_tangent_plane(normal, around);
 }
 

@@ -31,19 +31,18 @@ inline IntLanes rounded(FloatLanes v) {
   return __builtin_convertvector(v + half, IntLanes);
 }
 
-/// 8 times the binary logarithm of 4v + 1, linear between powers of two, in 2^-20ths. For v >= 0.
+inline constexpr float kLogUnit = 1 << 20;
+
+/// 8 times the binary logarithm of 4v + 1, linear between powers of two, times kLogUnit. For v >= 0.
 inline IntLanes log_of_magnitudes(FloatLanes v) {
   return std::bit_cast<IntLanes>(v + 0.25F) - std::bit_cast<std::int32_t>(0.25F);
 }
-/// The same as a whole number.
-inline FloatLanes from_log(IntLanes log) { return to_float(log) * (1.0F / (1 << 20)); }
-
-/// Bit i: whether lane i is true.
-inline unsigned bits_of(IntLanes truth) {
+/// Bit i: whether lane i is negative, or true.
+inline unsigned sign_bits(IntLanes v) {
 #if defined(__SSE2__)
-  return static_cast<unsigned>(_mm_movemask_ps((__m128)truth));
+  return static_cast<unsigned>(_mm_movemask_ps((__m128)v));
 #else
-  const IntLanes bits = truth & IntLanes{1, 2, 4, 8};
+  const IntLanes bits = v >> 31 & IntLanes{1, 2, 4, 8};
   return static_cast<unsigned>(bits[0] | bits[1] | bits[2] | bits[3]);
 #endif
 }

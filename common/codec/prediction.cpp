@@ -27,6 +27,8 @@ Predictor::Predictor(const CodecTables& tables, const Blends& blends)
       size_[c][i] = FloatLanes{static_cast<float>(axes[0][i]), static_cast<float>(axes[1][i]),
                                static_cast<float>(axes[2][i]), 0};
     }
+    // By logarithms as they come. Dividing by a power of two changes no bit of what a product gives.
+    for (unsigned i = 0; i < 6; ++i) size_[c][i] *= 1 / kLogUnit;
     size_[c][6] *= kConstantFeature;
     known_[c] = {axes[1][7], {axes[2][7], axes[2][8]}};
   }
@@ -34,12 +36,13 @@ Predictor::Predictor(const CodecTables& tables, const Blends& blends)
 
 std::array<double, kSizeFeatures> Predictor::size_features(const Surroundings& around, std::int32_t log_u,
                                                            std::int32_t log_w) {
-  return {around.logs[0],
-          around.logs[1],
-          around.logs[2],
-          around.logs[3],
-          around.recent[0],
-          around.recent[1],
+  const FloatLanes logs = around.logs * (1 / kLogUnit), recent = around.recent * (1 / kLogUnit);
+  return {logs[0],
+          logs[1],
+          logs[2],
+          logs[3],
+          recent[0],
+          recent[1],
           kConstantFeature,
           static_cast<double>(log_u),
           static_cast<double>(log_w)};

@@ -57,6 +57,13 @@ struct SizeClass {
 };
 
 inline constexpr int kMostSize = 8 * 23 - 1;
+/// By size: what lies below the highest four bits or so.
+inline constexpr auto kRawLowBits = [] {
+  std::array<std::uint8_t, kMostSize + 1> bits{};
+  for (std::size_t size = 32; size < bits.size(); ++size)
+    bits[size] = static_cast<std::uint8_t>(size / 8 - 4);
+  return bits;
+}();
 /// What a residual takes at most besides its symbol: low bits and sign.
 inline constexpr int kMostResidualBits = kMostSize / 8 - 4 + 1;
 
@@ -124,7 +131,7 @@ class Predictor {
     int clamped = sum >> 8;
     clamped = clamped < 0 ? 0 : clamped;
     const auto size = static_cast<unsigned>(clamped > kMostSize ? kMostSize : clamped);
-    return {size / 4, static_cast<int>(size / 8 < 4 ? 0 : size / 8 - 4)};
+    return {size / 4, kRawLowBits[size]};
   }
   /// What size classes weigh, for training.
   static std::array<double, kSizeFeatures> size_features(const Surroundings& around, std::int32_t log_u,

@@ -41,28 +41,42 @@ using ValueLists = std::array<std::vector<double>, 3>;
 /// `magnitudes` ascending; one set of signs for each.
 ValueLists make_lists(std::span<const double> magnitudes, std::span<const AxisSigns> signs);
 
-/// A place in an axis's list, vertex by vertex in the order of a FanWalk.
+/// A place in an axis's list, vertex by vertex in the order of a FanWalk. What is coded of a place: which of
+/// the candidates it is or, as kNoCandidate, the distance from `expected` as number(step_model) of fold_sign,
+/// less 1.
 class PlaceWalk {
  public:
-  /// What is coded of a place: the first of `candidates` that it is, or kNoCandidate and the distance from
-  /// `expected` as number(step_model) of fold_sign, less 1.
-  struct Guess {
-    static constexpr unsigned kNoCandidate = 15;
-    unsigned model, step_model;
-    std::uint32_t expected;
-    unsigned count = 0;
-    std::array<std::uint32_t, kNoCandidate> candidates;  ///< all different
-    std::uint64_t key;
+  static constexpr unsigned kNoCandidate = 15;
 
-    void add(std::uint32_t place);
+  /// Known surroundings of one axis, in their own order of keys and models.
+  enum class Shape : unsigned { Parallelogram, SeveralNeighbours, OneNeighbour };
+
+  /// What is known before any candidate is looked for: most places are the first one.
+  struct Around {
+    unsigned axis;
+    Shape shape;
+    std::uint32_t a, b, o;  ///< of a parallelogram or of neighbours; 0 where there is none
+    std::uint64_t key;
+    std::uint32_t remembered;  ///< what came last in such surroundings, or kNone
+    unsigned model, step_model;
+  };
+
+  /// All different.
+  struct Candidates {
+    unsigned count = 0;
+    std::array<std::uint32_t, kNoCandidate> places;
   };
 
   /// Borrows `lists`, none of which is empty.
   PlaceWalk(const ValueLists& lists, std::uint32_t vertices);
 
   /// For a vertex with a known neighbour. The axes before must have been placed.
-  Guess guess(const Fan& fan, unsigned axis) const;
-  void place(const Guess& guess, unsigned axis, std::uint32_t place);
+  Around look_around(const Fan& fan, unsigned axis) const;
+  /// The first `most` candidates, or all if there are fewer.
+  Candidates candidates(const Fan& fan, const Around& around, unsigned most) const;
+  /// Where parallelograms end, or a neighbour's place.
+  std::uint32_t expected(const Fan& fan, const Around& around) const;
+  void place(const Around& around, std::uint32_t place);
   /// A vertex without known neighbours.
   void place_first(unsigned axis, std::uint32_t place) { places_[count_][axis] = place; }
   /// After all three axes.
@@ -75,6 +89,7 @@ class PlaceWalk {
     std::uint32_t place = kNone;
   };
 
+  std::uint32_t place_of(VertexId v, unsigned axis) const { return places_[v][axis]; }
   std::uint32_t nearest(unsigned axis, double value) const;
   Memory& memory_of(std::uint64_t key) { return memory_[key >> memory_shift_]; }
   const Memory& memory_of(std::uint64_t key) const { return memory_[key >> memory_shift_]; }

@@ -95,12 +95,20 @@ consteval ModelTargets make_model_targets() {
 }
 inline constexpr ModelTargets kModelTargets = make_model_targets();
 
-/// bit_width of a number of uses.
-inline constexpr auto kShiftOfUses = [] {
-  std::array<std::uint8_t, 256> shifts{};
-  for (unsigned uses = 0; uses < shifts.size(); ++uses)
-    shifts[uses] = static_cast<std::uint8_t>(std::bit_width(uses));
-  return shifts;
+/// How far a model moves after so many uses: by 2^-shift. Half of what the shift drops, in every lane, and
+/// the shift as SIMD wants it.
+struct MoveRate {
+  alignas(16) std::int16_t half[8];
+  alignas(16) std::int64_t shift[2];
+};
+inline constexpr auto kRateOfUses = [] {
+  std::array<MoveRate, 256> rates{};
+  for (unsigned uses = 0; uses < rates.size(); ++uses) {
+    const int shift = static_cast<int>(std::bit_width(uses));
+    for (std::int16_t& half : rates[uses].half) half = static_cast<std::int16_t>((1 << shift) / 2);
+    rates[uses].shift[0] = shift;
+  }
+  return rates;
 }();
 
 #if defined(__SSE2__)
@@ -109,21 +117,6 @@ static_assert(__STDCPP_DEFAULT_NEW_ALIGNMENT__ >= 16, "models are read sixteen b
 
 /// What g++ lets alias the models' entries and nothing else, unlike __m128i.
 using ShortLanes = std::int16_t __attribute__((vector_size(16)));
-
-/// For each shift: half of what it drops, in every lane, and the shift as SIMD wants it.
-struct ShiftLanes {
-  alignas(16) std::int16_t half[8];
-  alignas(16) std::int64_t count[2];
-};
-inline constexpr auto kShiftLanes = [] {
-  std::array<ShiftLanes, 9> lanes{};
-  for (int shift = 1; shift < 9; ++shift) {
-    for (std::int16_t& half : lanes[static_cast<std::size_t>(shift)].half)
-      half = static_cast<std::int16_t>(1 << (shift - 1));
-    lanes[static_cast<std::size_t>(shift)].count[0] = shift;
-  }
-  return lanes;
-}();
 
 inline unsigned SymbolModels::find(unsigned model, std::uint32_t slot) const {
   const auto* c = reinterpret_cast<const ShortLanes*>(models_[model].cumulative);
@@ -136,11 +129,11 @@ inline unsigned SymbolModels::find(unsigned model, std::uint32_t slot) const {
 
 inline void SymbolModels::update(unsigned model, unsigned symbol) {
   SymbolModel& moved = models_[model];
-  const ShiftLanes& shift = kShiftLanes[kShiftOfUses[moved.uses]];
+  const MoveRate& rate = kRateOfUses[moved.uses];
   auto* c = reinterpret_cast<ShortLanes*>(moved.cumulative);
   const auto* target = reinterpret_cast<const ShortLanes*>(kModelTargets.of_symbol[symbol]);
-  const __m128i half = _mm_load_si128(reinterpret_cast<const __m128i*>(shift.half));
-  const __m128i count = _mm_load_si128(reinterpret_cast<const __m128i*>(shift.count));
+  const __m128i half = _mm_load_si128(reinterpret_cast<const __m128i*>(rate.half));
+  const __m128i count = _mm_load_si128(reinterpret_cast<const __m128i*>(rate.shift));
   for (int i = 0; i < 2; ++i) {
     const auto old = (__m128i)c[i];
     const __m128i step = _mm_adds_epi16(_mm_sub_epi16((__m128i)target[i], old), half);
@@ -160,13 +153,13 @@ inline unsigned SymbolModels::find(unsigned model, std::uint32_t slot) const {
 
 inline void SymbolModels::update(unsigned model, unsigned symbol) {
   SymbolModel& moved = models_[model];
-  const int shift = kShiftOfUses[moved.uses];
+  const MoveRate& rate = kRateOfUses[moved.uses];
   std::uint16_t* c = moved.cumulative;
   for (unsigned i = 0; i < kSymbols; ++i) {
     // Saturated at 16 bits signed, as SIMD adds; entries stay strictly rising either way.
-    int step = kModelTargets.of_symbol[symbol][i] - c[i] + (1 << (shift - 1));
+    int step = kModelTargets.of_symbol[symbol][i] - c[i] + rate.half[0];
     if (step > 32767) step = 32767;
-    c[i] = static_cast<std::uint16_t>(c[i] + (step >> shift));
+    c[i] = static_cast<std::uint16_t>(c[i] + (step >> rate.shift[0]));
   }
   moved.uses = static_cast<std::uint16_t>(moved.uses + (moved.uses < moved.uses_limit));
 }

@@ -17,20 +17,10 @@ bool is_on_border(const CornerTable& table, VertexId v) {
 }  // namespace
 
 BoundaryLoops find_boundary_loops(const CornerTable& table) {
-  std::vector<VertexId> border_vertices;
-  for (VertexId v = 0; v < table.vertex_count(); ++v) {
-    if (is_on_border(table, v)) border_vertices.push_back(v);
-  }
-  return find_boundary_loops(table, border_vertices);
-}
-
-BoundaryLoops find_boundary_loops(const CornerTable& table, std::span<const VertexId> border_vertices) {
   BoundaryLoops loops;
-  if (border_vertices.empty()) return loops;
   std::vector<bool> is_visited(table.vertex_count(), false);
-  loops.vertices.reserve(border_vertices.size());
-  for (VertexId start : border_vertices) {
-    if (is_visited[start]) continue;
+  for (VertexId start = 0; start < table.vertex_count(); ++start) {
+    if (is_visited[start] || !is_on_border(table, start)) continue;
     std::uint32_t length = 0;
     for (VertexId v = start; !is_visited[v]; v = next_on_border(table, v)) {
       is_visited[v] = true;

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "common/mesh/corner_table.h"
@@ -21,7 +20,5 @@ struct BoundaryLoops {
 
 /// Linear time. Needs every vertex to have one fan (check_corner_table), so loops share no vertex.
 BoundaryLoops find_boundary_loops(const CornerTable& table);
-/// The same, for whoever knows the border vertices; ascending.
-BoundaryLoops find_boundary_loops(const CornerTable& table, std::span<const VertexId> border_vertices);
 
 }  // namespace selvage

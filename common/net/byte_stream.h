@@ -54,6 +54,12 @@ class ByteStream {
   /// Writes all of it. The pieces and what they point at stay until it is done.
   virtual asio::awaitable<Result<void>> write(const Pieces& pieces) = 0;
 
+  /// Whether write_at_once() is worth a try: data need not wait for its time (wait_to_write).
+  virtual bool may_write_at_once() { return false; }
+  /// Writes as much of it as goes without waiting, from the first byte on, and says how much that was. What
+  /// is wrong with the connection, the next write() says. Not while a write() is under way.
+  virtual std::size_t write_at_once(const Pieces&) { return 0; }
+
   /// Returns when what was written before is nearly gone, so that what is written next goes soon. To be
   /// awaited before each write of data; then is the time to choose what to write.
   virtual asio::awaitable<Result<void>> wait_to_write() { co_return Result<void>(); }

@@ -47,9 +47,13 @@ void SendPace::measure() {
   if (change > write_size_ / kWorthwhile || (change > 0 && size == kMostWrite)) set_write_size(size);
 }
 
-asio::awaitable<Result<void>> SendPace::wait() {
+bool SendPace::must_wait() {
   if (writes_until_measure_-- == 0) measure();
-  if (write_size_ >= kWaitBelow) co_return Result<void>();
+  return write_size_ < kWaitBelow;
+}
+
+asio::awaitable<Result<void>> SendPace::wait() {
+  if (!must_wait()) co_return Result<void>();
   if (!socket_.is_open()) co_return connection_failure(asio::error::operation_aborted);
   auto [error] = co_await socket_.async_wait(tcp::socket::wait_write, kAwait);
   if (error) co_return connection_failure(error);

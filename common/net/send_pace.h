@@ -29,6 +29,8 @@ class SendPace {
   /// Returns when the kernel is about to run out of what it has; at once on fast connections. Call it before
   /// each write, and then choose what to write.
   boost::asio::awaitable<Result<void>> wait();
+  /// Whether that takes a while. Stands for a call of wait() where it does not.
+  bool must_wait();
 
  private:
   void measure();

@@ -38,8 +38,8 @@ void encode_turned(EntropyEncoder& out, const std::vector<bool>& is_turned) {
 }
 
 void encode_anchors(EntropyEncoder& out, const RegionMesh& mesh) {
-  std::vector<std::uint32_t> place_of_vertex(mesh.table.vertex_count());
-  const std::vector<VertexId> order = anchor_order(mesh.loops, mesh.table.vertex_count());
+  std::vector<std::uint32_t> place_of_vertex(mesh.vertex_count());
+  const std::vector<VertexId> order = anchor_order(mesh.loops, mesh.vertex_count());
   for (std::uint32_t place = 0; place < order.size(); ++place) place_of_vertex[order[place]] = place;
   out.number(region_model::kAnchorCount, static_cast<std::uint32_t>(mesh.anchors.size()));
   std::uint32_t next_place = 0, next_group = 0;
@@ -55,8 +55,8 @@ void encode_anchors(EntropyEncoder& out, const RegionMesh& mesh) {
 }  // namespace
 
 // In step with decode_positions.
-std::vector<VertexId> encode_positions(const FanTable& table, std::span<const GridPoint> positions,
-                                       const GridBox& box, const CodecTables& tables, EntropyEncoder& out) {
+CodingOrder encode_positions(const FanTable& table, std::span<const GridPoint> positions, const GridBox& box,
+                             const CodecTables& tables, EntropyEncoder& out) {
   const Blends blends = choose_blends(table, positions, box, tables);
   out.symbol(region_model::kShape, blends.shape);
   out.symbol(region_model::kTrend, blends.trend);
@@ -64,10 +64,10 @@ std::vector<VertexId> encode_positions(const FanTable& table, std::span<const Gr
   const Predictor predictor(tables, blends);
   GeometryWalk::Memory memory;
   GeometryWalk walk(table, table.vertex_count(), box.extent(), memory);
-  std::vector<VertexId> order;
+  CodingOrder order;
   for (Surroundings around{}; walk.next_vertex(around);) {
     const GridPoint& position = positions[walk.old_number()];
-    order.push_back(walk.old_number());
+    order.vertices.push_back(walk.old_number());
     if (!around.has_neighbours) {
       encode_offset(out, position, box);
       walk.place_first(position);
@@ -89,6 +89,8 @@ std::vector<VertexId> encode_positions(const FanTable& table, std::span<const Gr
     encode_sign_and_low_bits(out, third, residual.last);
     walk.place(around, lanes, u + w, last);
   }
+  order.triangles = walk.order().triangles();
+  order.loops = walk.order().boundary_loops();
   return order;
 }
 

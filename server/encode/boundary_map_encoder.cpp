@@ -16,7 +16,7 @@ struct LoopPlace {
 };
 
 std::vector<LoopPlace> places_on_loops(const RegionMesh& mesh) {
-  std::vector<LoopPlace> place_of_vertex(mesh.table.vertex_count());
+  std::vector<LoopPlace> place_of_vertex(mesh.vertex_count());
   std::uint32_t index = 0;
   for (std::uint32_t loop = 0; loop < mesh.loops.lengths.size(); ++loop) {
     for (std::uint32_t place = 0; place < mesh.loops.lengths[loop]; ++place)

@@ -128,13 +128,15 @@ std::uint32_t place_of(const std::vector<double>& list, double value) {
   return static_cast<std::uint32_t>(found - list.begin()) + is_behind_minus_zero;
 }
 
-void encode_place(const PlaceWalk::Guess& guess, std::uint32_t place, EntropyEncoder& out) {
-  const auto end = guess.candidates.begin() + guess.count;
-  const auto found = std::find(guess.candidates.begin(), end, place);
-  if (found != end) return out.symbol(guess.model, static_cast<unsigned>(found - guess.candidates.begin()));
-  out.symbol(guess.model, PlaceWalk::Guess::kNoCandidate);
-  const auto step = static_cast<std::int32_t>(place - guess.expected);
-  out.number(guess.step_model, fold_sign(step) - 1);
+void encode_place(const PlaceWalk& walk, const Fan& fan, const PlaceWalk::Around& around, std::uint32_t place,
+                  EntropyEncoder& out) {
+  const PlaceWalk::Candidates candidates = walk.candidates(fan, around, PlaceWalk::kNoCandidate);
+  const auto begin = candidates.places.begin(), end = begin + candidates.count;
+  const auto found = std::find(begin, end, place);
+  if (found != end) return out.symbol(around.model, static_cast<unsigned>(found - begin));
+  out.symbol(around.model, PlaceWalk::kNoCandidate);
+  const auto step = static_cast<std::int32_t>(place - walk.expected(fan, around));
+  out.number(around.step_model, fold_sign(step) - 1);
 }
 
 // In step with decode_places of client/decode/list_decoder.cpp.
@@ -156,9 +158,9 @@ void encode_places(const FanTable& table, std::span<const Values> positions, con
         walk.place_first(axis, place);
         continue;
       }
-      const PlaceWalk::Guess guess = walk.guess(fan, axis);
-      encode_place(guess, place, out);
-      walk.place(guess, axis, place);
+      const PlaceWalk::Around around = walk.look_around(fan, axis);
+      encode_place(walk, fan, around, place, out);
+      walk.place(around, place);
     }
     walk.finish_vertex();
   }
@@ -193,17 +195,16 @@ void encode_listed_floats(const FanTable& table, std::span<const ExactPosition> 
   encode_places(table, values, make_lists(magnitudes.values, magnitudes.signs), out);
 }
 
-bool may_be_listed(const CornerTable& table, std::span<const GridPoint> positions) {
+bool may_be_listed(std::span<const Triangle> triangles, std::span<const GridPoint> positions) {
   std::size_t alike = 0;
-  for (TriangleId t = 0; t < table.triangle_count(); ++t) {
-    const auto [a, b, c] = table.triangle(t);
+  for (const auto& [a, b, c] : triangles) {
     for (int axis = 0; axis < 3; ++axis) {
       const std::int32_t at_a = positions[a][axis], at_b = positions[b][axis], at_c = positions[c][axis];
       alike += static_cast<unsigned>(at_a == at_b) + (at_b == at_c) + (at_c == at_a);
     }
   }
   // An eighth of nine.
-  return 8 * alike >= 9 * std::size_t{table.triangle_count()};
+  return 8 * alike >= 9 * triangles.size();
 }
 
 }  // namespace selvage

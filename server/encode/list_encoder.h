@@ -6,7 +6,7 @@
 #include "common/codec/exact.h"
 #include "common/codec/fan_table.h"
 #include "common/coding/entropy_encoder.h"
-#include "common/mesh/corner_table.h"
+#include "common/mesh/triangle_soup.h"
 #include "common/mesh/vec3.h"
 
 namespace selvage {
@@ -19,6 +19,6 @@ void encode_listed_positions(const FanTable& table, std::span<const GridPoint> p
 void encode_listed_floats(const FanTable& table, std::span<const ExactPosition> exact, EntropyEncoder& out);
 
 /// False where so few coordinates repeat along edges that lists can hardly be shorter: most scans.
-bool may_be_listed(const CornerTable& table, std::span<const GridPoint> positions);
+bool may_be_listed(std::span<const Triangle> triangles, std::span<const GridPoint> positions);
 
 }  // namespace selvage

@@ -34,15 +34,6 @@ std::vector<VertexId> map_vertices(const EncodedConnectivity& connectivity, cons
   return source_of_vertex;
 }
 
-/// Vertices numbered in the order of `old_of_new`.
-CornerTable renumbered(const FanTable& table, std::span<const VertexId> old_of_new) {
-  std::vector<VertexId> new_of_old(table.vertex_count(), kNone);
-  for (VertexId v = 0; v < old_of_new.size(); ++v) new_of_old[old_of_new[v]] = v;
-  CornerTable result = table.plain(new_of_old);
-  result.set_corner_of_vertex(static_cast<std::uint32_t>(old_of_new.size()));
-  return result;
-}
-
 std::vector<bool> map_turned(const EncodedConnectivity& connectivity, const std::vector<bool>& is_turned) {
   if (std::find(is_turned.begin(), is_turned.end(), true) == is_turned.end()) return {};
   std::vector<bool> mapped(connectivity.table.triangle_count());
@@ -55,7 +46,7 @@ std::vector<Anchor> map_anchors(const RegionMesh& mesh, const std::vector<Vertex
                                 const std::vector<std::uint32_t>& weld_groups) {
   std::vector<Anchor> anchors;
   if (weld_groups.empty()) return anchors;
-  for (VertexId v : anchor_order(mesh.loops, mesh.table.vertex_count())) {
+  for (VertexId v : anchor_order(mesh.loops, mesh.vertex_count())) {
     const std::uint32_t group = weld_groups[source_of_vertex[v]];
     if (group != kNone) anchors.push_back({v, group});
   }
@@ -131,24 +122,24 @@ EncodedRegion encode_region(const RegionSource& source, const CodecTables& table
     for (VertexId v : source_of_grown)
       positions.push_back(v == kNone ? GridPoint{} : drop_bits(source.positions[v], dropped_bits));
     out.symbol(region_model::kIsListed, 0);
-    const std::vector<VertexId> order = encode_positions(connectivity.table, positions, box, tables, out);
-    for (VertexId grown : order) encoded.source_of_vertex.push_back(source_of_grown[grown]);
-    mesh.positions = gathered<GridPoint>(positions, order);
+    CodingOrder order = encode_positions(connectivity.table, positions, box, tables, out);
+    for (VertexId grown : order.vertices) encoded.source_of_vertex.push_back(source_of_grown[grown]);
+    mesh.positions = gathered<GridPoint>(positions, order.vertices);
     mesh.is_turned = map_turned(connectivity, source.is_turned);
-    mesh.table = renumbered(connectivity.table, order);
-    mesh.loops = find_boundary_loops(mesh.table);
+    mesh.triangles = std::move(order.triangles);
+    mesh.loops = std::move(order.loops);
     if (!source.exact.empty()) {
       mesh.exact = gathered<ExactPosition>(source.exact, encoded.source_of_vertex);
       encode_exact(mesh.positions, mesh.exact, source.grid, out);
     }
-    if (source.exact.empty() ? may_be_listed(mesh.table, mesh.positions)
+    if (source.exact.empty() ? may_be_listed(mesh.triangles, mesh.positions)
                              : follow(source.grid, mesh.positions, mesh.exact))
       try_lists(connectivity.table, mesh.positions, mesh.exact, tables, before_positions, out);
   } else {
     out.number(region_model::kLooseCount, source.table.vertex_count());
     out.mark();
     encode_loose_positions(source.positions, box, out);
-    mesh.table = source.table;
+    mesh.positions = source.positions;
     mesh.loops = loose_loops(source.table.vertex_count());
     encoded.source_of_vertex = mesh.loops.vertices;
     mesh.exact = source.exact;

@@ -47,11 +47,13 @@ void Batch::keep(const std::shared_ptr<const Pack>& pack) {
   if (kept_.empty() || kept_.back() != pack) kept_.push_back(pack);
 }
 
-const Pieces& Batch::pieces() {
+const Pieces& Batch::pieces(std::size_t written) {
   pieces_.clear();
   for (const Run& run : runs_) {
     const std::byte* bytes = run.outside ? run.outside : &buffer_[run.start];
-    pieces_.emplace_back(std::span(bytes, run.size), run.is_mapped);
+    const std::size_t gone = std::min(written, run.size);
+    written -= gone;
+    if (gone < run.size) pieces_.emplace_back(std::span(bytes, run.size).subspan(gone), run.is_mapped);
   }
   return pieces_;
 }

@@ -50,8 +50,8 @@ class Batch {
   bool empty() const { return runs_.empty(); }
   std::size_t size_bytes() const { return size_bytes_; }
 
-  /// What to write; valid until the batch changes.
-  const Pieces& pieces();
+  /// What to write, but for the first `written` bytes; valid until the batch changes.
+  const Pieces& pieces(std::size_t written = 0);
 
   template <class Message>
   void add(const Message& message, std::uint32_t request_id, std::uint32_t seq) {

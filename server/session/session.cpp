@@ -2,13 +2,15 @@
 #include "server/session/session.h"
 
 #include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
 
 #include <boost/asio/co_spawn.hpp>
 
 #include "common/net/await.h"
 #include "common/net/frame_io.h"
 #include "server/session/request_handler.h"
-#include "server/session/run_on.h"
 
 namespace selvage {
 namespace {
@@ -62,6 +64,7 @@ asio::awaitable<void> Session::run() {
   finish();
   while (writers_ > 0) co_await writer_ended_.wait();
   ended_ = true;
+  co_await see_off();
   deadline_.stop();
   stream_->close();
   if (thrown_) std::rethrow_exception(thrown_);
@@ -82,19 +85,25 @@ void Session::on_deadline() {
   const bool is_write = write_by_ <= read_by_;
   set_deadline(is_write ? write_by_ : read_by_, kNever);
   if (is_write) {
-    if (!reason_) reason_ = Error{ErrorCode::Timeout, "the client does not take what it asked for"};
+    end_for({ErrorCode::Timeout, "the client does not take what it asked for"});
     stream_->close();
   } else if (sent_all_) {
-    finish();
+    stream_->close();
   } else {
-    if (!reason_) reason_ = Error{ErrorCode::Timeout, "nothing heard from the client for too long"};
+    end_for({ErrorCode::Timeout, "nothing heard from the client for too long"});
     if (!is_ready_) return stream_->close();  // in the middle of a handshake nothing can be said
     finish();
   }
 }
 
-/// Nothing more is read: tells the client why, and lets the writer end the connection.
+/// The first reason is the one that is told.
+void Session::end_for(const Error& reason) {
+  if (!reason_) reason_ = std::make_unique<const Error>(reason);
+}
+
+/// No more requests are taken: tells the client why, and lets the writer end.
 void Session::finish() {
+  corked_ = false;
   if (closing_) return;
   closing_ = true;
   outbox_.drop_answers();
@@ -114,35 +123,43 @@ void Session::shut_down() {
 
 /// Until there is a reason not to.
 asio::awaitable<void> Session::read_loop() {
-  const Result<void> ready = co_await stream_->handshake();
-  if (!ready) {
-    reason_ = ready.error();
-    stream_->close();
-    co_return;
-  }
-  is_ready_ = true;
-  for (;;) {
+  Result<void> good = co_await stream_->handshake();
+  is_ready_ = good.has_value();
+  if (!good) stream_->close();
+  while (good) {
+    if (outbox_.full()) uncork();
     while (outbox_.full() && !closing_) co_await wake_reader_.wait();
     if (closing_) co_return;
-    if (incoming_.between_frames()) {
-      incoming_.release();
-      (void)co_await stream_->wait_to_read();  // what is wrong, the read says
+    Result<std::optional<Frame>> frame = incoming_.take();
+    if (frame && !frame->has_value()) {
+      uncork();
+      if (incoming_.between_frames()) {
+        incoming_.release();
+        (void)co_await stream_->wait_to_read();  // what is wrong, the read says
+      }
+      frame = co_await read_frame(*stream_, incoming_);
     }
-    Result<std::optional<Frame>> frame = co_await read_frame(*stream_, incoming_);
+    if (closing_ || sent_all_) co_return;
     if (frame && !frame->has_value()) co_return;  // the client has left
-    Result<void> handled;
     if (frame) {
-      if (sent_all_) continue;
       set_deadline(read_by_, kNever);  // what comes is our time, not the client's
-      handled = co_await handle(**frame);
-      if (!sent_all_) set_deadline(read_by_, Deadline::Clock::now() + limits_.idle_timeout);
+      corked_ = true;
+      good = co_await handle(**frame);
+      if (!closing_ && !sent_all_) set_deadline(read_by_, Deadline::Clock::now() + limits_.idle_timeout);
     } else {
-      handled = forward_error(frame);
+      good = forward_error(frame);
     }
-    if (!handled) {
-      if (!reason_ && !closing_ && !sent_all_) reason_ = handled.error();
-      co_return;
-    }
+  }
+  if (!closing_ && !sent_all_) end_for(good.error());
+}
+
+/// To close while anything from the client is unread would take back what it has not received yet. So what it
+/// still says is read and ignored, until it leaves or its time is up.
+asio::awaitable<void> Session::see_off() {
+  while (sent_all_) {
+    std::array<std::byte, kReadSize> ignored;
+    const Result<std::size_t> count = co_await stream_->read_some(ignored);
+    if (!count || *count == 0) co_return;
   }
 }
 
@@ -277,7 +294,7 @@ bool Session::refuse(std::uint32_t request_id, bool is_allowed, const char* scop
 asio::awaitable<Result<void>> Session::list(std::uint32_t request_id, ListModels request) {
   note("list", request_id, LogFields());
   auto look = [&store = services_.store] { return store.list(); };
-  Result<std::vector<PackStore::Model>> models = co_await run_on(services_.workers, std::move(look));
+  Result<std::vector<PackStore::Model>> models = co_await on_workers(std::move(look));
   if (models) {
     send(answer_list(request, *models), request_id);
   } else {
@@ -305,7 +322,7 @@ asio::awaitable<Result<void>> Session::get(std::uint32_t request_id, std::span<c
   if (is_small) {
     request = parse_request();
   } else {
-    request = co_await run_on(services_.workers, parse_request);
+    request = co_await on_workers(parse_request);
   }
   if (!request) co_return forward_error(request);
   ++services_.counters.gets;
@@ -322,7 +339,7 @@ asio::awaitable<Result<void>> Session::get(std::uint32_t request_id, std::span<c
   if (is_small && (*pack)->directory().regions.size() <= kSmallModel) {
     answer = look_up();
   } else {
-    answer = co_await run_on(services_.workers, look_up);
+    answer = co_await on_workers(look_up);
   }
   if (answer) {
     send_answer(std::move(*answer));
@@ -342,7 +359,7 @@ std::shared_ptr<const Pack> Session::opened_pack(const std::string& name) const 
 /// The pack as the store has it now; remembered for the gets to come.
 asio::awaitable<Result<std::shared_ptr<const Pack>>> Session::open_pack(std::string name) {
   auto look = [&store = services_.store, &name] { return store.open(name); };
-  Result<std::shared_ptr<const Pack>> pack = co_await run_on(services_.workers, std::move(look));
+  Result<std::shared_ptr<const Pack>> pack = co_await on_workers(std::move(look));
   if (pack) {
     std::erase_if(opened_, [&](const OpenedModel& model) { return model.name == name; });
     opened_.push_back({std::move(name), *pack});
@@ -380,10 +397,44 @@ void Session::refuse_damaged() {
   }
 }
 
-/// There is a writer only while there is something to write: an idle connection does without.
+/// Answers to what came together go together. Before waiting for anything the reader lets them go.
+void Session::uncork() {
+  corked_ = false;
+  if (std::exchange(has_news_, false)) wake_writer();
+}
+
+/// There is a writer only while something waits to be written: an idle connection does without, and most
+/// answers do too.
 void Session::wake_writer() {
-  if (is_writing_) return rate_pause_.notify();
-  if (ended_) return;
+  if (corked_) {
+    has_news_ = true;
+  } else if (is_writing_) {
+    rate_pause_.notify();
+  } else if (!ended_ && !write_at_once()) {
+    start_writer(Batch(), 0);
+  }
+}
+
+/// What the kernel takes without waiting needs no coroutine. False if a writer has still something to do.
+bool Session::write_at_once() {
+  if (closing_ || draining_ || outbox_.idle() || !stream_->may_write_at_once()) return false;
+  thread_local Batch batch;
+  is_writing_ = true;
+  refuse_damaged();
+  const auto now = RateLimit::Clock::now();
+  outbox_.take(batch, std::min<std::uint64_t>(stream_->write_size(), rate_.available(now)));
+  rate_.spend(batch.size_bytes());
+  const std::size_t written = stream_->write_at_once(batch.pieces());
+  services_.counters.bytes_sent += written;
+  is_writing_ = false;
+  const bool is_whole = written == batch.size_bytes();
+  if (!is_whole) start_writer(std::exchange(batch, Batch()), written);
+  batch.clear();
+  return !is_whole || outbox_.idle();
+}
+
+/// `batch` goes first, but for the bytes of it that are written.
+void Session::start_writer(Batch batch, std::size_t written) {
   is_writing_ = true;
   ++writers_;
   auto on_end = [this](std::exception_ptr thrown) {
@@ -395,12 +446,15 @@ void Session::wake_writer() {
     }
     writer_ended_.notify();
   };
-  asio::co_spawn(stream_->executor(), write_loop(), std::move(on_end));
+  asio::co_spawn(stream_->executor(), write_loop(std::move(batch), written), std::move(on_end));
 }
 
-asio::awaitable<void> Session::write_loop() {
-  Batch batch;
+asio::awaitable<void> Session::write_loop(Batch batch, std::size_t written) {
   bool is_broken = false;
+  if (!batch.empty()) {
+    const Result<void> rest = co_await write(batch, written);
+    is_broken = !rest;
+  }
   while (!is_broken) {
     if (!outbox_.idle()) {
       set_deadline(write_by_, Deadline::Clock::now() + limits_.write_timeout);
@@ -414,8 +468,9 @@ asio::awaitable<void> Session::write_loop() {
     outbox_.take(batch, std::min<std::uint64_t>(stream_->write_size(), rate_.available(now)));
     if (!batch.empty()) {
       if (!outbox_.full()) wake_reader_.notify();
-      const Result<void> written = co_await write(batch);
-      is_broken = !written;
+      rate_.spend(batch.size_bytes());
+      const Result<void> all_written = co_await write(batch);
+      is_broken = !all_written;
       continue;
     }
     const auto pause = rate_.wait_for(kBurst, now);
@@ -423,25 +478,24 @@ asio::awaitable<void> Session::write_loop() {
     co_await rate_pause_.wait_for(pause);
   }
   is_writing_ = false;
-  if (is_broken || closing_) {
+  const bool is_drained = draining_ && outbox_.idle() && !upload_;
+  if (is_broken) {
     closing_ = true;
     stream_->close();  // which ends the reader
-    wake_reader_.notify();
-  } else if (draining_ && outbox_.idle() && !upload_) {
-    // A close now would take back what the client has not received yet, if it has sent a Credit meanwhile.
+  } else if ((closing_ || is_drained) && !sent_all_) {
     sent_all_ = true;
     stream_->end_writing();
     set_deadline(read_by_, Deadline::Clock::now() + kFarewell);
   }
+  if (closing_) wake_reader_.notify();
 }
 
-asio::awaitable<Result<void>> Session::write(Batch& batch) {
-  rate_.spend(batch.size_bytes());
+asio::awaitable<Result<void>> Session::write(Batch& batch, std::size_t written) {
   set_deadline(write_by_, Deadline::Clock::now() + limits_.write_timeout);
-  Result<void> written = co_await stream_->write(batch.pieces());
+  Result<void> all_written = co_await stream_->write(batch.pieces(written));
   set_deadline(write_by_, kNever);
-  if (written) services_.counters.bytes_sent += batch.size_bytes();
-  co_return written;
+  if (all_written) services_.counters.bytes_sent += batch.size_bytes() - written;
+  co_return all_written;
 }
 
 }  // namespace selvage

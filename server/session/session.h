@@ -10,8 +10,8 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/base/log.h"
@@ -23,6 +23,7 @@
 #include "server/session/limits.h"
 #include "server/session/outbox.h"
 #include "server/session/rate_limit.h"
+#include "server/session/run_on.h"
 #include "server/session/services.h"
 
 namespace selvage {
@@ -46,8 +47,8 @@ class Session {
   const std::string& peer() const { return peer_; }
   /// Which of the server's connections this is, counted from 1; in every line of the log about it.
   std::uint64_t number() const { return number_; }
-  /// Why it ended, once run() has returned; nothing if the client left in good order.
-  const std::optional<Error>& reason() const { return reason_; }
+  /// Why it ended, once run() has returned; null if the client left in good order.
+  const Error* reason() const { return reason_.get(); }
 
  private:
   static constexpr auto kNever = Deadline::Clock::time_point::max();
@@ -55,11 +56,22 @@ class Session {
   void watch_deadlines();
   void on_deadline();
   void set_deadline(Deadline::Clock::time_point& which, Deadline::Clock::time_point at);
+  void end_for(const Error& reason);
   void finish();
+  /// What work() returns. For all that handling a frame waits for: what is queued does not wait with it.
+  template <class Work>
+  auto on_workers(Work work) {
+    uncork();
+    return run_on(services_.workers, std::move(work));
+  }
+  void uncork();
   void wake_writer();
+  void start_writer(Batch batch, std::size_t written);
+  bool write_at_once();
   asio::awaitable<void> read_loop();
-  asio::awaitable<void> write_loop();
-  asio::awaitable<Result<void>> write(Batch& batch);
+  asio::awaitable<void> see_off();
+  asio::awaitable<void> write_loop(Batch batch, std::size_t written);
+  asio::awaitable<Result<void>> write(Batch& batch, std::size_t written = 0);
 
   Result<void> greet(const Frame& frame);
   void note(const char* what, std::uint32_t request_id, LogFields fields) const;
@@ -141,17 +153,19 @@ class Session {
   Signal writer_ended_;
   int writers_ = 0;            ///< whose coroutines have not come to their end
   bool is_writing_ = false;    ///< one of them takes from the outbox
+  bool corked_ = false;        ///< what is queued waits for more of what has come from the client
+  bool has_news_ = false;      ///< something was queued meanwhile
   bool ended_ = false;         ///< no more writers
   std::exception_ptr thrown_;  ///< by a loop
-  std::optional<Uploading> upload_;
+  std::unique_ptr<Uploading> upload_;
   std::uint32_t last_upload_ = 0;  ///< the request whose Data may still arrive; 0: none
   std::shared_ptr<Lifeline> lifeline_;
   bool is_ready_ = false;  ///< the stream's own handshake is done
   bool greeted_ = false;
   bool draining_ = false;  ///< no new requests; the writer ends when all is sent
-  bool sent_all_ = false;  ///< it has; what the client still says is read and ignored, until it leaves
   bool closing_ = false;   ///< the writer sends what control frames are left, and ends
-  std::optional<Error> reason_;
+  bool sent_all_ = false;  ///< it has; what the client still says is read and ignored, until it leaves
+  std::unique_ptr<const Error> reason_;
 };
 
 }  // namespace selvage

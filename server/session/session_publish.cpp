@@ -4,7 +4,6 @@
 // writes each Data frame to the disk, on a worker, before it reads on, so an upload goes as fast as the disk.
 #include <boost/asio/post.hpp>
 
-#include "server/session/run_on.h"
 #include "server/session/session.h"
 
 namespace selvage {
@@ -38,16 +37,15 @@ asio::awaitable<Result<void>> Session::publish(std::uint32_t request_id, Publish
   auto begin = [publishing = services_.publishing, request = std::move(request), who = access_.who] {
     return publishing->begin(request, who);
   };
-  Result<std::shared_ptr<Upload>> upload = co_await run_on(services_.workers, std::move(begin));
+  Result<std::shared_ptr<Upload>> upload = co_await on_workers(std::move(begin));
   if (!upload) {
     send_error(upload.error(), request_id);
     co_return Result<void>();
   }
-  Uploading uploading;
-  uploading.request_id = request_id;
-  uploading.size = size;
-  uploading.upload = std::move(*upload);
-  upload_ = std::move(uploading);
+  upload_ = std::make_unique<Uploading>();
+  upload_->request_id = request_id;
+  upload_->size = size;
+  upload_->upload = std::move(*upload);
   last_upload_ = request_id;
   const std::uint64_t held = upload_->upload->held();
   outbox_.push_control(to_frame(PublishReady{held}, request_id, upload_->seq++));
@@ -68,7 +66,7 @@ asio::awaitable<Result<void>> Session::take_upload(Frame frame) {
   const std::shared_ptr<Upload> upload = upload_->upload;
   const std::span<const std::byte> bytes = frame.payload;
   auto append = [upload, bytes] { return upload->append(bytes); };
-  const Result<void> appended = co_await run_on(services_.workers, std::move(append));
+  const Result<void> appended = co_await on_workers(std::move(append));
   if (!appended) {
     send_error(appended.error(), frame.header.request_id);
     upload_.reset();
@@ -101,7 +99,7 @@ asio::awaitable<void> Session::submit_upload() {
   auto submit = [upload = upload_->upload, events = events_for(request_id)] {
     return upload->submit(events);
   };
-  const Result<void> submitted = co_await run_on(services_.workers, std::move(submit));
+  const Result<void> submitted = co_await on_workers(std::move(submit));
   if (!submitted) end_upload(request_id, tl::unexpected(submitted.error()));
 }
 
@@ -139,7 +137,7 @@ asio::awaitable<Result<void>> Session::unpublish(std::uint32_t request_id, Unpub
   auto remove = [publishing = services_.publishing, request = std::move(request)] {
     return publishing->unpublish(request.name);
   };
-  const Result<void> removed = co_await run_on(services_.workers, std::move(remove));
+  const Result<void> removed = co_await on_workers(std::move(remove));
   if (removed) {
     send(RequestEnd(), request_id);
   } else {

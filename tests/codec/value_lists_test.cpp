@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include "client/decode/region_decoder.h"
-#include "common/mesh/check_corner_table.h"
 #include "server/encode/region_encoder.h"
 #include "tests/support/random_meshes.h"
 #include "tests/support/shapes.h"
@@ -61,7 +60,7 @@ Bytes listed(const RegionSource& source) {
   const auto decoded = decode_region(encoded.bytes, limits_of(source, encoded));
   EXPECT_TRUE(decoded) << decoded.error().message;
   if (!decoded) return encoded.bytes;
-  EXPECT_TRUE(check_corner_table(decoded->table));
+  EXPECT_TRUE(check_region_mesh(*decoded));
   EXPECT_EQ(decoded->loops.lengths, encoded.loops.lengths);
   for (VertexId v = 0; v < decoded->positions.size(); ++v) {
     const VertexId from = encoded.source_of_vertex[v];
@@ -130,7 +129,7 @@ TEST(ValueLists, RefuseEveryTruncationAndSurviveEveryFlippedBit) {
       damaged[bit / 8] ^= static_cast<std::byte>(1u << (bit % 8));
       const auto decoded = decode_region(damaged, limits);
       if (!decoded) continue;
-      EXPECT_TRUE(check_corner_table(decoded->table));
+      EXPECT_TRUE(check_region_mesh(*decoded));
       ASSERT_EQ(decoded->positions.size(), source.positions.size());
       for (const ExactPosition& exact : decoded->exact) {
         for (float x : exact) EXPECT_TRUE(std::isfinite(x));

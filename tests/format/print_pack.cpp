@@ -16,8 +16,8 @@ namespace {
 
 void print_region(const RegionMesh& mesh, RegionId region, std::size_t level) {
   std::printf("region %u level %zu\n", region, level);
-  for (TriangleId t = 0; t < mesh.table.triangle_count(); ++t) {
-    const auto [a, b, c] = mesh.table.triangle(t);
+  for (TriangleId t = 0; t < mesh.triangles.size(); ++t) {
+    const auto [a, b, c] = mesh.triangles[t];
     std::printf("t %u %u %u %d\n", a, b, c, !mesh.is_turned.empty() && mesh.is_turned[t]);
   }
   for (VertexId v = 0; v < mesh.positions.size(); ++v) {

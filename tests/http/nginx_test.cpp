@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The same against nginx, which packages.txt installs: a server of our own, on a free port, with its
+// The same against nginx, which tests/packages.txt lists: a server of our own, on a free port, with its
 // configuration and everything that it writes in a temporary folder.
 #include <csignal>
 #include <cstring>

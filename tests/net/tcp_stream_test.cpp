@@ -114,11 +114,42 @@ TEST(TcpStream, SendsZerosForWhatAFileHasNoMore) {
   const auto file = mapped(folder, bytes);
   constexpr std::size_t kKept = 73 * 4096;
   std::filesystem::resize_file(folder.path() / "file", kKept);
-  const std::vector<std::byte> received = carry(Pieces(1, Piece(file->bytes(), true)));
+  // Some of it is copied, before and between what is handed over.
+  Pieces pieces(1, Piece(file->bytes().last(5000), true));
+  pieces.emplace_back(file->bytes(), true);
+  pieces.emplace_back(file->bytes().last(1000), true);
+  const std::vector<std::byte> received = carry(pieces);
   EXPECT_TRUE(file->is_damaged());
-  std::vector<std::byte> expected = bytes;
-  std::fill(expected.begin() + kKept, expected.end(), std::byte{0});
+  std::vector<std::byte> expected(5000);
+  expected.insert(expected.end(), bytes.begin(), bytes.begin() + kKept);
+  expected.resize(5000 + bytes.size() + 1000);
   EXPECT_TRUE(received == expected) << received.size() << " bytes";
+}
+
+TEST(TcpStream, WritesAtOnceWhatGoesWithoutWaiting) {
+  asio::io_context io;
+  const Ends ends = connected(io);
+  const std::vector<std::byte> bytes = random_bytes(20u << 20);  // more than the kernel takes
+  ASSERT_TRUE(ends.here->may_write_at_once());
+  const std::size_t written = ends.here->write_at_once(Pieces(1, bytes));
+  EXPECT_GT(written, 0u);
+  ASSERT_LT(written, bytes.size());
+  EXPECT_EQ(ends.here->write_at_once(Pieces(1, bytes)), 0u);
+
+  std::vector<std::byte> received;
+  Result<void> rest_written;
+  const Pieces rest(1, Piece(std::span(bytes).subspan(written)));
+  asio::co_spawn(io, read_all(*ends.there, received), asio::detached);
+  asio::co_spawn(io, write_all(*ends.here, rest, rest_written), asio::detached);
+  io.run();
+  EXPECT_TRUE(received == bytes) << received.size() << " bytes";
+}
+
+TEST(TcpStream, WritesNothingAtOnceWhereThePeerHasLeft) {
+  asio::io_context io;
+  const Ends ends = connected(io);
+  ends.here->close();
+  EXPECT_FALSE(ends.here->may_write_at_once());
 }
 
 }  // namespace

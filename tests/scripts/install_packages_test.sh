@@ -29,11 +29,12 @@ install_with() {
   printf '%s\n' "$@" > "$sandbox/installed"
   : > "$sandbox/asked"
   status=0
-  PATH=$sandbox/bin:$PATH "$sandbox/a place/scripts/install_packages.sh" > "$sandbox/output" 2>&1 || status=$?
+  PATH=$sandbox/bin:$PATH "$sandbox/a place/scripts/install_packages.sh" "${further_lists[@]}" > "$sandbox/output" 2>&1 || status=$?
   asked=$(< "$sandbox/asked")
   output=$(< "$sandbox/output")
 }
 
+further_lists=()
 mkdir -p -- "$sandbox/bin" "$sandbox/a place/scripts"
 cp -- "$root/scripts/install_packages.sh" "$sandbox/a place/scripts/"
 printf '# a comment\none\n\n two # why\nthree' > "$sandbox/a place/packages.txt"
@@ -51,6 +52,12 @@ claim 'installing succeeds' test "$status" = 0
 claim 'apt updates once, then installs what is missing' test "$(wc -l < "$sandbox/asked")" = 2
 claim 'updates first' grep -q ' update$' <(head -n 1 "$sandbox/asked")
 claim 'asks for the missing ones only' grep -q -- '--no-install-recommends two three$' "$sandbox/asked"
+
+printf 'four\n' > "$sandbox/four.txt"
+further_lists=("$sandbox/four.txt")
+install_with one two
+claim 'a further list is installed too' grep -q -- '--no-install-recommends three four$' "$sandbox/asked"
+further_lists=()
 
 stand_in apt-get 'exit 100'
 install_with one two

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The server's session against clients of every kind, frame by frame.
+#include <iterator>
 #include <map>
 
 #include <boost/asio/detached.hpp>
@@ -12,6 +13,8 @@ namespace selvage {
 namespace {
 
 using namespace std::chrono_literals;
+using testing::FaultPlan;
+using testing::MemoryStreamOptions;
 using testing::RawPeer;
 using testing::SessionHarness;
 using Work = asio::awaitable<void>;
@@ -253,6 +256,27 @@ asio::awaitable<std::map<std::uint32_t, std::size_t>> receive_data(RawPeer& peer
   co_return data;
 }
 
+TEST(ServerSession, AnswersToWhatCameTogetherGoTogether) {
+  MemoryStreamOptions options;
+  SessionHarness harness({}, options);
+  RawPeer peer(harness.connect());
+  const auto work = [](RawPeer& client, const FaultPlan& server) -> Work {
+    co_await greet(client);
+    const std::size_t before = server.operations;
+    Bytes pings;
+    for (std::uint32_t id = 1; id <= 30; ++id)
+      std::ranges::copy(to_frame(Ping{}, id), std::back_inserter(pings));
+    co_await client.send_bytes(std::move(pings));
+    for (std::uint32_t id = 1; id <= 30; ++id) {
+      const auto pong = co_await client.receive();
+      EXPECT_TRUE(pong && pong->is(FrameType::Pong) && pong->header.request_id == id);
+    }
+    EXPECT_LE(server.operations - before, 3u);  // a read, a write, and the next read
+    client.close();
+  };
+  harness.run(work(peer, *options.first_fault));
+}
+
 TEST(ServerSession, RequestsOfEqualUrgencyShareTheConnection) {
   SessionHarness harness;
   harness.folder().put("row.selvage", fake_pack_bytes(20, 1'000'000));
@@ -438,6 +462,33 @@ TEST(ServerSession, EndsWhenTheClientLeavesInTheMiddleOfAFrame) {
   };
   harness.run(work(peer));
   EXPECT_EQ(harness.session().reason()->code, ErrorCode::Io);
+}
+
+TEST(ServerSession, AnEndSaysWhyAndReadsOnUntilTheClientLeaves) {
+  SessionHarness harness;
+  RawPeer peer(harness.connect());
+  const auto work = [](RawPeer& client) -> Work {
+    co_await client.send(Ping{}, 1);
+    const auto frame = co_await client.receive();
+    EXPECT_TRUE(frame && frame->is(FrameType::Error));
+    co_await client.send_bytes(Bytes(1 << 20));  // more than is under way, so it is read
+    EXPECT_FALSE(client.broken());
+    client.close();
+  };
+  harness.run(work(peer));
+  EXPECT_EQ(harness.session().reason()->code, ErrorCode::Protocol);
+}
+
+TEST(ServerSession, AnEndDoesNotWaitForEver) {
+  SessionHarness harness;
+  RawPeer peer(harness.connect());
+  const auto work = [](RawPeer& client) -> Work {
+    co_await client.send(Ping{}, 1);
+    const auto frame = co_await client.receive();
+    EXPECT_TRUE(frame && frame->is(FrameType::Error));
+    while (!client.broken()) co_await client.send_bytes(Bytes(1 << 10));
+  };
+  harness.run(work(peer));
 }
 
 // ---- clients that waste time or memory

@@ -299,11 +299,10 @@ TEST(MixedLevels, AVertexOfSeveralRegionsTakesItsPlaceFromTheFinestOfThem) {
   for (RegionId id : {1u, 2u}) directory.regions[id].loop_lengths = {3};
   const auto region = [](std::int32_t x) {
     RegionMesh mesh;
-    const Triangle triangle = {0, 1, 2};
-    mesh.table = build_corner_table(std::span(&triangle, 1), 3);
+    mesh.triangles = {{0, 1, 2}};
     mesh.positions = {{x, 0, 0}, {x, 1, 0}, {x, 2, 0}};
     mesh.anchors = {{0, 9}};
-    mesh.loops = find_boundary_loops(mesh.table);
+    mesh.loops = {{0, 1, 2}, {3}};
     mesh.vertex_of_boundary = mesh.loops.vertices;
     return mesh;
   };

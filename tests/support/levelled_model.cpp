@@ -55,18 +55,18 @@ RegionMesh LevelledModel::region(RegionId id, std::uint32_t level) const {
   const std::vector<VertexId>& vertices = levels.regions[level][id].vertices;
   std::map<VertexId, VertexId> local;
   for (const VertexId v : vertices) local.emplace(v, static_cast<VertexId>(local.size()));
-  std::vector<Triangle> triangles = triangles_of(*this, id, level);
-  for (Triangle& triangle : triangles) {
+  region.triangles = triangles_of(*this, id, level);
+  for (Triangle& triangle : region.triangles) {
     for (VertexId& v : triangle) v = local.at(v);
   }
-  region.table = build_corner_table(triangles, static_cast<std::uint32_t>(vertices.size()));
   for (const VertexId v : vertices) {
     region.positions.push_back({static_cast<std::int32_t>(mesh.source_of_vertex[v]), 0, 0});
     if (group_of_vertex_[v] != kNone) region.anchors.push_back({local.at(v), group_of_vertex_[v]});
   }
   for (const TriangleId t : levels.regions[level][id].triangles)
     region.is_turned.push_back(mesh.is_turned[t]);
-  region.loops = find_boundary_loops(region.table);
+  region.loops =
+      find_boundary_loops(build_corner_table(region.triangles, static_cast<std::uint32_t>(vertices.size())));
   for (const VertexId v : boundary_of_region_[id])
     region.vertex_of_boundary.push_back(local.at(levels.representative_of_vertex[level][v]));
   if (id == kLooseRegion) region.loops = {region.vertex_of_boundary, directory.regions[id].loop_lengths};

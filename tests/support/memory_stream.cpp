@@ -55,14 +55,19 @@ class MemoryStream final : public ByteStream {
       while (!left.empty()) {
         while (out_->bytes.size() >= out_->capacity && !out_->closed) co_await out_->writable.wait();
         if (out_->closed) co_return fail(ErrorCode::Io, "the other side has gone");
-        const std::size_t count = std::min(left.size(), out_->capacity - out_->bytes.size());
-        out_->bytes.insert(out_->bytes.end(), left.begin(),
-                           left.begin() + static_cast<std::ptrdiff_t>(count));
-        out_->readable.notify();
-        left = left.subspan(count);
+        left = left.subspan(put(left));
       }
     }
     co_return Result<void>();
+  }
+
+  bool may_write_at_once() override { return !closed_; }
+
+  std::size_t write_at_once(const Pieces& pieces) override {
+    std::size_t written = 0;
+    if (fails()) return written;
+    for (const Piece& piece : pieces) written += put(piece.bytes);
+    return written;
   }
 
   void end_writing() override { out_->close(); }
@@ -77,6 +82,15 @@ class MemoryStream final : public ByteStream {
   std::string peer() const override { return "memory"; }
 
  private:
+  /// As much as there is room for.
+  std::size_t put(std::span<const std::byte> bytes) {
+    if (out_->closed) return 0;
+    const std::size_t count = std::min(bytes.size(), out_->capacity - out_->bytes.size());
+    out_->bytes.insert(out_->bytes.end(), bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(count));
+    out_->readable.notify();
+    return count;
+  }
+
   bool fails() {
     if (fault_->operations++ != fault_->fails_at) return closed_;
     close();

@@ -50,10 +50,13 @@ class RawPeer {
     broken_ |= !written;
   }
 
-  /// Nothing at the end of the connection, however it came.
+  /// Nothing at the end of the connection, however it came; the peer leaves then.
   asio::awaitable<std::optional<Received>> receive() {
     const Result<std::optional<Frame>> frame = co_await read_frame(*stream_, buffer_);
-    if (!frame || !frame->has_value()) co_return std::nullopt;
+    if (!frame || !frame->has_value()) {
+      stream_->close();
+      co_return std::nullopt;
+    }
     Received received{(*frame)->header, {(*frame)->payload.begin(), (*frame)->payload.end()}};
     co_return received;
   }

@@ -22,7 +22,9 @@ void digest_region(std::span<const std::byte> bytes, Digest& digest) {
   const auto region = decode_region(input.part, input.expected);
   digest.add(region.has_value());
   if (!region) return;
-  for (VertexId v : region->table.vertex_of_corner) digest.add(v);
+  for (const Triangle& triangle : region->triangles) {
+    for (VertexId v : triangle) digest.add(v);
+  }
   for (const GridPoint& p : region->positions)
     digest.add(static_cast<std::uint64_t>(p.x) << 40 ^ static_cast<std::uint64_t>(p.y) << 20 ^
                static_cast<std::uint64_t>(p.z));

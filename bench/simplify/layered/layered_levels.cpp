@@ -185,10 +185,13 @@ class Maker {
       if (coarse.vertex(c) != kNone)
         first_corner[{coarse.vertex(c), coarse.vertex(next(c)), coarse.vertex(prev(c))}] = c;
     }
-    const CornerTable& base = region.base_mesh.table;
-    const auto source = [&](CornerId c) { return region.source_of_base[base.vertex(c)]; };
-    for (CornerId c = 0; c < base.corner_count(); ++c)
-      region.corner_of_base.push_back(first_corner.at({source(c), source(next(c)), source(prev(c))}));
+    for (Triangle triangle : region.base_mesh.triangles) {
+      for (VertexId& v : triangle) v = region.source_of_base[v];
+      for (int i = 0; i < 3; ++i) {
+        region.corner_of_base.push_back(first_corner.at(triangle));
+        std::rotate(triangle.begin(), triangle.begin() + 1, triangle.end());
+      }
+    }
   }
 
   static void borrow_loops(LayeredRegion& region) {

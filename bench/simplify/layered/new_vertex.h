@@ -91,8 +91,8 @@ class PlaceModel {
     const FloatLanes sums = sums_of_three(ring.reach_, ring.apart_);
     const FloatLanes sizes{sums[0] * per_point, __builtin_fabsf(split_rise), sums[1] * per_tip,
                            __builtin_fabsf(rise)};
-    around.logs = from_log(log_of_magnitudes(sizes));
-    around.recent = from_log(recent_);
+    around.logs = to_float(log_of_magnitudes(sizes));
+    around.recent = to_float(recent_);
     around.beyond = around.ring = around.trend = FloatLanes{};
     set_tangent_plane(normal, around);
     const auto& w = weights_[features.place_class];

@@ -87,8 +87,10 @@ class LayerDecoder {
 
 GrowingRegion start_growing(const RegionMesh& base, std::span<const std::uint32_t> finest_loop_lengths,
                             const LayerSize& coarsest, const LayerSize& finest) {
-  GrowingRegion region(base.table, finest.vertices, finest.triangles);
-  for (VertexId v = 0; v < base.table.vertex_count(); ++v) {
+  // A decoder that shipped would keep the table that the base was decoded into.
+  GrowingRegion region(build_corner_table(base.triangles, base.vertex_count()), finest.vertices,
+                       finest.triangles);
+  for (VertexId v = 0; v < base.vertex_count(); ++v) {
     const GridPoint p = drop_bits(base.positions[v], coarsest.dropped_bits);
     region.position[v] = IntLanes{p.x, p.y, p.z, 0};
   }
@@ -107,7 +109,7 @@ GrowingRegion start_growing(const RegionMesh& base, std::span<const std::uint32_
 RegionMesh grown(const GrowingRegion& region, std::span<const std::uint32_t> finest_loop_lengths,
                  const LayerSize& level) {
   RegionMesh mesh;
-  mesh.table = region.mesh.plain();
+  mesh.triangles = region.mesh.triangles();
   mesh.positions.resize(level.vertices);
   std::vector<std::uint32_t> begin_of_loop{0};
   for (const std::uint32_t length : finest_loop_lengths)

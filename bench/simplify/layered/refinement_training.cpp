@@ -8,6 +8,7 @@
 
 #include "bench/train/least_squares.h"
 #include "bench/train/model_fit.h"
+#include "common/mesh/check_corner_table.h"
 
 namespace selvage::bench {
 namespace {
@@ -24,14 +25,16 @@ void check_level(const LayeredRegion& region, const GrowingRegion& grown_region,
                  const std::vector<VertexId>& source_of_vertex, std::size_t level) {
   const LayerSize& size = region.sizes[level];
   const RegionMesh mesh = grown(grown_region, region.loop_lengths, size);
-  check(mesh.table.vertex_count() == size.vertices && mesh.table.triangle_count() == size.triangles,
+  const CornerTable table = grown_region.mesh.plain();
+  check(table.vertex_count() == size.vertices && table.triangle_count() == size.triangles,
         "another number of vertices or triangles");
+  check(check_corner_table(table).has_value(), "not a manifold");
   const CornerTable& expected = level == 0 ? region.finest : region.layers[level - 1].coarse;
-  const auto triangles = [](const CornerTable& table, auto name) {
+  const auto triangles = [](const CornerTable& of, auto name) {
     std::vector<Triangle> all;
-    for (TriangleId t = 0; t < table.triangle_count(); ++t) {
-      if (table.vertex(3 * t) == kNone) continue;
-      Triangle triangle = table.triangle(t);
+    for (TriangleId t = 0; t < of.triangle_count(); ++t) {
+      if (of.vertex(3 * t) == kNone) continue;
+      Triangle triangle = of.triangle(t);
       for (VertexId& v : triangle) v = name(v);
       std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
       all.push_back(triangle);
@@ -39,7 +42,7 @@ void check_level(const LayeredRegion& region, const GrowingRegion& grown_region,
     std::sort(all.begin(), all.end());
     return all;
   };
-  check(triangles(mesh.table, [&](VertexId v) { return source_of_vertex[v]; }) ==
+  check(triangles(table, [&](VertexId v) { return source_of_vertex[v]; }) ==
             triangles(expected, [](VertexId v) { return v; }),
         "other triangles");
   for (VertexId v = 0; v < size.vertices; ++v) {
@@ -47,7 +50,7 @@ void check_level(const LayeredRegion& region, const GrowingRegion& grown_region,
         mesh.positions[v] == restore_bits(drop_bits(region.positions[source_of_vertex[v]], size.dropped_bits),
                                           size.dropped_bits),
         "another position");
-    const bool is_border = mesh.table.is_border_vertex(v);
+    const bool is_border = table.is_border_vertex(v);
     check(is_border == (grown_region.run[v].length > 0), "another border");
   }
   for (std::size_t i = 0; i < mesh.vertex_of_boundary.size(); ++i) {

@@ -86,6 +86,13 @@ VertexId SplitMesh::add_ear(VertexId v, const Star& star, SplitKind kind) {
   return u;
 }
 
+std::vector<Triangle> SplitMesh::triangles() const {
+  std::vector<Triangle> triangles(triangle_count_);
+  for (TriangleId t = 0; t < triangle_count_; ++t)
+    triangles[t] = {vertex_of_corner_[4 * t], vertex_of_corner_[4 * t + 1], vertex_of_corner_[4 * t + 2]};
+  return triangles;
+}
+
 CornerTable SplitMesh::plain() const {
   CornerTable table;
   table.vertex_of_corner.resize(3 * std::size_t{triangle_count_});

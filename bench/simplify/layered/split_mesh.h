@@ -65,6 +65,7 @@ class SplitMesh {
   /// star split inside, takes all. At an end the run may be empty: the new triangle is an ear at the border.
   VertexId split(VertexId v, const Star& star, SplitKind kind, std::uint32_t begin, std::uint32_t span);
 
+  std::vector<Triangle> triangles() const;
   CornerTable plain() const;
 
  private:
