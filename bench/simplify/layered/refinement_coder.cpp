@@ -46,7 +46,7 @@ class LayerDecoder {
 
   EntropyDecoder& in() { return in_; }
 
-  WantedSplit wanted(VertexId) { return {}; }
+  SplitChoice wanted(VertexId) { return {}; }
   unsigned symbol(unsigned model, unsigned) { return in_.symbol(model); }
   std::uint32_t number(unsigned model, std::uint32_t) { return in_.number(model); }
   void is_split(std::uint32_t) {}
@@ -178,7 +178,7 @@ EntropyEncoder LayerEncoder::encode(const std::vector<PlannedSplit>& splits, con
   return std::move(out_);
 }
 
-WantedSplit LayerEncoder::wanted(VertexId v) {
+SplitChoice LayerEncoder::wanted(VertexId v) {
   for (const std::uint32_t i : ready_) {
     const PlannedSplit& planned = (*splits_)[i];
     const CornerId first = local_of_corner_[planned.first], last = local_of_corner_[planned.last];
@@ -188,7 +188,7 @@ WantedSplit LayerEncoder::wanted(VertexId v) {
     const auto place = [&](CornerId c) {
       return static_cast<std::uint32_t>(std::find(star.corners, star.corners + star.size, c) - star.corners);
     };
-    WantedSplit wanted{planned.kind, 0, 0, planned.boundary_run};
+    SplitChoice wanted{planned.kind, 0, 0, planned.boundary_run};
     if (planned.is_ear) {
       wanted.begin = planned.kind == SplitKind::AtEnd ? star.size : 0;
     } else if (planned.kind == SplitKind::AtStart) {

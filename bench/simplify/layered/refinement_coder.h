@@ -31,7 +31,8 @@ GrowingRegion start_growing(const RegionMesh& base, std::span<const std::uint32_
 RegionMesh grown(const GrowingRegion& region, std::span<const std::uint32_t> finest_loop_lengths,
                  const LayerSize& level);
 
-/// False if the bytes are no such part.
+/// False if the bytes are no such part. Bounded by the sizes whatever the bytes; that positions lie in a box
+/// is not looked at.
 bool decode_layer(std::span<const std::byte> bytes, const LayerSize& coarse, const LayerSize& fine,
                   bool is_finest, const RefinementTables& tables, GrowingRegion& region);
 
@@ -56,7 +57,7 @@ class LayerEncoder {
   const std::vector<VertexId>& source_of_vertex() const { return source_of_vertex_; }
 
   // What the walk asks.
-  WantedSplit wanted(VertexId v);
+  SplitChoice wanted(VertexId v);
   unsigned symbol(unsigned model, unsigned value) { return out_.symbol(model, value), value; }
   std::uint32_t number(unsigned model, std::uint32_t value) { return out_.number(model, value), value; }
   IntLanes position(const Predictor& sizes, const Surroundings& around, const PlaceModel::Features& features,
