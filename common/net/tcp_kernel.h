@@ -6,6 +6,9 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
+
+#include "common/base/result.h"
 
 namespace selvage {
 
@@ -17,5 +20,9 @@ std::optional<TcpFigures> tcp_figures(int socket);
 
 /// The kernel takes more for sending while less than `bytes` wait in it, and says so at half of that.
 void limit_unsent(int socket, std::uint32_t bytes);
+
+/// Of this socket; set on one that listens, of those that it accepts. InvalidArgument for what this kernel
+/// does not have, or does not let us use.
+Result<void> use_congestion_control(int socket, const std::string& name);
 
 }  // namespace selvage

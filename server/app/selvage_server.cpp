@@ -238,6 +238,10 @@ Result<int> serve(const ServerOptions& options) {
                                  options.is_encrypted()};
   auto listener = Listener::bind(io, *address, services, options.limits, std::move(*tls));
   if (!listener) return forward_error(listener);
+  if (!options.congestion_control.empty()) {
+    auto chosen = (*listener)->use_congestion_control(options.congestion_control);
+    if (!chosen) return forward_error(chosen, "--congestion-control");
+  }
   if (auto ok = check_exposure(options, **listener); !ok) return forward_error(ok);
   Signals signals(**listener, [&] { reload(options, access, **listener); });
   auto health = start_health(options, services, signals);

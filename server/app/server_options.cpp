@@ -104,6 +104,9 @@ void add_options(CLI::App& app, ServerOptions& options) {
               "read the folder this often, besides when the kernel tells of a change");
   app.add_option("--threads", options.threads, "network threads; 0: one for each processor")
       ->capture_default_str();
+  app.add_option("--congestion-control", options.congestion_control,
+                 "of TCP, instead of the system's: with bbr, cancels and pings act sooner on slow links")
+      ->type_name("NAME");
   auto* verbose = app.add_flag("--verbose", options.verbose, "log every connection and request");
   app.add_flag("--quiet", options.quiet, "log warnings and errors only")->excludes(verbose);
   const std::map<std::string, LogFormat> formats = {{"text", LogFormat::Text}, {"json", LogFormat::Json}};

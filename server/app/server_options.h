@@ -27,6 +27,7 @@ struct ServerOptions {
   std::filesystem::path tokens;
   std::string health;  ///< HOST:PORT; empty: none
   unsigned threads = 0;
+  std::string congestion_control;  ///< empty: the system's
   bool verbose = false;
   bool quiet = false;
   LogFormat log_format = LogFormat::Text;

@@ -8,6 +8,7 @@
 
 #include "common/base/log.h"
 #include "common/net/await.h"
+#include "common/net/tcp_kernel.h"
 
 namespace selvage {
 namespace {
@@ -78,6 +79,10 @@ Result<std::unique_ptr<Listener>> Listener::bind(asio::io_context& io, const Hos
   std::unique_ptr<Listener> listener(new Listener(io, services, limits, std::move(tls)));
   if (auto listening = listen_on(listener->acceptor_, address); !listening) return forward_error(listening);
   return listener;
+}
+
+Result<void> Listener::use_congestion_control(const std::string& name) {
+  return selvage::use_congestion_control(acceptor_.native_handle(), name);
 }
 
 HostPort Listener::address() const { return address_of(acceptor_); }

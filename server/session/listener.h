@@ -32,6 +32,9 @@ class Listener {
                                                 const SessionServices& services, const ServerLimits& limits,
                                                 std::shared_ptr<TlsContext> tls = nullptr);
 
+  /// TCP's, of the connections to come; by default the system's.
+  Result<void> use_congestion_control(const std::string& name);
+
   HostPort address() const;     ///< with the port that was picked
   bool is_on_loopback() const;  ///< only this machine can connect
 

@@ -43,8 +43,10 @@ class ProcessFixture : public ::testing::Test {
   }
   /// ring() as a model: WHERE/ring.selvage.
   static void put_ring(const std::filesystem::path& where, bool lossless = false) {
-    const auto model = ingest(ring(), {.name = "ring", .lossless = lossless}, serial_for(),
-                              [](const std::string&, double) { return true; });
+    IngestOptions options;
+    options.name = "ring";
+    options.lossless = lossless;
+    const auto model = ingest(ring(), options, serial_for(), [](const std::string&, double) { return true; });
     std::ofstream(where / "ring.selvage", std::ios::binary)
         .write(reinterpret_cast<const char*>(model->pack.data()),
                static_cast<std::streamsize>(model->pack.size()));

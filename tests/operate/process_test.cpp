@@ -90,6 +90,14 @@ TEST_F(Process, BadConfigurationsNameTheirLine) {
   EXPECT_NE(said.text.find("max-upload"), std::string::npos) << said.text;
 }
 
+TEST_F(Process, ChoosesTheCongestionControlThatThereIs) {
+  EXPECT_TRUE(BlockingClient::connect(start_on_store({"--congestion-control", "reno"})->address()));
+  const auto said = run_program(quoted(SELVAGE_SERVER) + " --store " + quoted(store().string()) +
+                                " --listen 127.0.0.1:0 --congestion-control haste");
+  EXPECT_NE(said.code, 0);
+  EXPECT_NE(said.text.find("no congestion control 'haste'"), std::string::npos) << said.text;
+}
+
 TEST_F(Process, ToolsTalkToItOverTls) {
   const TestAuthority authority(folder.path(), "test");
   const auto files = authority.issue({});

@@ -21,16 +21,17 @@ struct Setting {
 };
 
 constexpr Setting kSettings[] = {
-    {"max-connections", "11"},  {"max-connections-per-address", "12"},
-    {"max-requests", "13"},     {"max-ids", "14"},
-    {"max-queued-parts", "15"}, {"max-opened-models", "16"},
-    {"max-message", "200KiB"},  {"max-queued", "18KiB"},
-    {"max-rate", "19KiB"},      {"handshake-timeout", "20.5"},
-    {"idle-timeout", "21.5"},   {"write-timeout", "22.5"},
-    {"shutdown-grace", "23.5"}, {"max-upload", "24KiB"},
-    {"max-staged", "25KiB"},    {"staged-age", "26"},
-    {"publish-queue", "27"},    {"publish-threads", "28"},
-    {"store-poll", "29.5"},     {"threads", "30"},
+    {"max-connections", "11"},      {"max-connections-per-address", "12"},
+    {"max-requests", "13"},         {"max-ids", "14"},
+    {"max-queued-parts", "15"},     {"max-opened-models", "16"},
+    {"max-message", "200KiB"},      {"max-queued", "18KiB"},
+    {"max-rate", "19KiB"},          {"handshake-timeout", "20.5"},
+    {"idle-timeout", "21.5"},       {"write-timeout", "22.5"},
+    {"shutdown-grace", "23.5"},     {"max-upload", "24KiB"},
+    {"max-staged", "25KiB"},        {"staged-age", "26"},
+    {"publish-queue", "27"},        {"publish-threads", "28"},
+    {"store-poll", "29.5"},         {"threads", "30"},
+    {"congestion-control", "reno"},
 };
 
 ServerOptions parsed(std::vector<std::string> arguments) {
@@ -64,6 +65,7 @@ void expect_settings(const ServerOptions& options) {
   EXPECT_EQ(options.publish.threads, 28u);
   EXPECT_EQ(options.store_poll, 29'500ms);
   EXPECT_EQ(options.threads, 30u);
+  EXPECT_EQ(options.congestion_control, "reno");
 }
 
 TEST(ServerOptions, EachSetsItsOwnLimit) {
