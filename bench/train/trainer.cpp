@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <functional>
 
+#include "bench/train/least_squares.h"
+#include "bench/train/model_fit.h"
 #include "client/decode/connectivity_decoder.h"
 #include "client/decode/region_decoder.h"
 #include "common/codec/geometry_walk.h"
@@ -138,40 +140,6 @@ TrainingSet make_training_set(const std::vector<const Model*>& models) {
   return set;
 }
 
-/// Weighted least squares by normal equations; a little of the identity keeps unseen directions at zero.
-template <std::size_t N>
-class LeastSquares {
- public:
-  void add(const std::array<double, N>& x, double y, double weight) {
-    for (std::size_t i = 0; i < N; ++i) {
-      for (std::size_t j = 0; j < N; ++j) a_[i][j] += weight * x[i] * x[j];
-      a_[i][N] += weight * x[i] * y;
-    }
-    total_ += weight;
-  }
-
-  std::array<double, N> solve(double ridge) const {
-    auto a = a_;
-    for (std::size_t i = 0; i < N; ++i) a[i][i] += ridge;
-    for (std::size_t i = 0; i < N; ++i) {
-      for (std::size_t r = 0; r < N; ++r) {
-        if (r == i) continue;
-        const double factor = a[r][i] / a[i][i];
-        for (std::size_t c = i; c <= N; ++c) a[r][c] -= factor * a[i][c];
-      }
-    }
-    std::array<double, N> x;
-    for (std::size_t i = 0; i < N; ++i) x[i] = a[i][N] / a[i][i];
-    return x;
-  }
-
-  double total() const { return total_; }
-
- private:
-  std::array<std::array<double, N + 1>, N> a_{};
-  double total_ = 0;
-};
-
 std::int16_t fixed(double value, double scale, double most = 16000) {
   return static_cast<std::int16_t>(std::lround(std::clamp(value * scale, -most, most)));
 }
@@ -255,96 +223,6 @@ std::array<std::array<SizeWeights, 3>, kSizeClasses> fit_size(const TrainingSet&
     }
   }
   return weights;
-}
-
-/// One model's symbols, part by part.
-struct History {
-  std::vector<std::uint8_t> symbols;
-  std::vector<std::uint32_t> begins;  ///< of each part that uses the model
-};
-
-/// -log2 of a frequency.
-const std::vector<float>& cost_of_frequency() {
-  static const std::vector<float> costs = [] {
-    std::vector<float> all(kProbabilityOne + 1);
-    for (std::uint32_t f = 1; f <= kProbabilityOne; ++f)
-      all[f] = static_cast<float>(kProbabilityBits - std::log2(static_cast<double>(f)));
-    return all;
-  }();
-  return costs;
-}
-
-double adaptive_cost(const History& history, const StartModel& start) {
-  double cost = 0;
-  for (std::size_t i = 0; i < history.begins.size(); ++i) {
-    SymbolModels model(std::span(&start, 1));
-    const std::size_t end = i + 1 < history.begins.size() ? history.begins[i + 1] : history.symbols.size();
-    for (std::size_t at = history.begins[i]; at < end; ++at) {
-      cost += cost_of_frequency()[model.range(0, history.symbols[at]).frequency];
-      model.update(0, history.symbols[at]);
-    }
-  }
-  return cost;
-}
-
-/// Start levels from counts in which a part that uses the model often counts little more than one that uses
-/// it seldom; then the confidence and the last rate that code the training parts in the fewest bits.
-PackedModel fit_model(const History& history, unsigned used_symbols) {
-  std::array<double, kSymbols> counts;
-  for (unsigned s = 0; s < kSymbols; ++s) counts[s] = s < used_symbols ? 0.02 : 1e-9;
-  double total = 0;
-  for (std::size_t i = 0; i < history.begins.size(); ++i) {
-    const std::size_t end = i + 1 < history.begins.size() ? history.begins[i + 1] : history.symbols.size();
-    const auto length = static_cast<double>(end - history.begins[i]);
-    const double weight = std::min(1.0, 64 / length);
-    for (std::size_t at = history.begins[i]; at < end; ++at) counts[history.symbols[at]] += weight;
-    total += weight * length;
-  }
-  PackedModel model{};
-  for (unsigned s = 0; s < kSymbols; ++s)
-    model.levels[s] = static_cast<std::uint8_t>(
-        std::clamp(std::lround(-12 * std::log2(counts[s] / (total + 1))), 0L, 255L));
-  double least = 1e300;
-  PackedModel best = model;
-  for (int limit : {31, 63, 127, 255}) {
-    for (int uses : {4, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 255}) {
-      if (uses > limit) continue;
-      model.uses = static_cast<std::uint8_t>(uses);
-      model.uses_limit = static_cast<std::uint8_t>(limit);
-      const double cost = adaptive_cost(history, unpack(model));
-      if (cost < least) least = cost, best = model;
-    }
-  }
-  return best;
-}
-
-struct FittedBank {
-  std::vector<PackedModel> packed;
-  std::vector<bool> is_seen;
-  std::vector<StartModel> start;
-};
-
-FittedBank fit_bank(const std::vector<Sequence>& parts, unsigned models,
-                    const std::function<unsigned(unsigned)>& used_symbols) {
-  std::vector<History> histories(models);
-  std::vector<std::size_t> last_part(models, parts.size());
-  for (std::size_t part = 0; part < parts.size(); ++part) {
-    for (const Token& token : parts[part]) {
-      History& history = histories[token.model];
-      if (last_part[token.model] != part)
-        history.begins.push_back(static_cast<std::uint32_t>(history.symbols.size()));
-      last_part[token.model] = part;
-      history.symbols.push_back(static_cast<std::uint8_t>(token.symbol));
-    }
-  }
-  FittedBank bank;
-  for (unsigned m = 0; m < models; ++m) {
-    const bool is_seen = !histories[m].symbols.empty();
-    bank.is_seen.push_back(is_seen);
-    bank.packed.push_back(is_seen ? fit_model(histories[m], used_symbols(m)) : PackedModel{});
-    bank.start.push_back(is_seen ? unpack(bank.packed.back()) : fresh_model());
-  }
-  return bank;
 }
 
 unsigned region_symbols(unsigned model) {

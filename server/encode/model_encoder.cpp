@@ -62,9 +62,11 @@ float above(double value) {
   return rounded < value ? std::nextafter(rounded, std::numeric_limits<float>::infinity()) : rounded;
 }
 
-class ModelEncoder {
+}  // namespace
+
+class ModelEncoder::Impl {
  public:
-  ModelEncoder(const ModelSource& source, const Grid& grid, const EncodeHooks& hooks)
+  Impl(const ModelSource& source, const Grid& grid, const EncodeHooks& hooks)
       : source_(source),
         grid_(grid),
         hooks_(hooks),
@@ -79,42 +81,69 @@ class ModelEncoder {
     }
   }
 
-  EncodedModel run(const ParallelFor& parallel, const std::function<void()>& on_part_done) {
+  Result<EncodedModel> encode(const LevelledMesh* levels, const ParallelFor& parallel,
+                              const std::function<void()>& on_part_done) {
+    if (auto ok = check_region_sizes(source_.table, source_.partition); !ok) return forward_error(ok);
     const std::uint32_t regions = source_.partition.region_count + 1;
+    if (finest_.entries.empty()) {
+      encode_finest(parallel, on_part_done);
+    } else {
+      for (std::uint32_t i = 0; i < 2 * regions; ++i) on_part_done();
+    }
     EncodedModel model;
     std::vector<RegionEntry>& entries = model.directory.regions;
-    entries.resize(regions);
+    entries = finest_.entries;
     std::vector<std::vector<Bytes>> level_parts(regions);
-    std::vector<Bytes> bundle_parts(regions);
-    std::vector<std::size_t> connectivity_sizes(regions, 0);
-    parallel(regions, [&](std::size_t i) {
-      const auto region = static_cast<RegionId>(i);
-      if (!by_region_.of(region).empty())
-        level_parts[i].push_back(encode_one(region, entries[i], connectivity_sizes[i]));
-      on_part_done();
-    });
-    encode_levels(parallel, on_part_done, entries, level_parts);
-    // Bundles name boundary vertices by index, so they wait for all regions.
-    const auto bundles = group_boundary_triangles(source_.table, source_.partition);
-    parallel(regions, [&](std::size_t i) {
-      if (!bundles[i].empty()) bundle_parts[i] = encode_joins(static_cast<RegionId>(i), bundles[i], entries);
-      on_part_done();
-    });
     for (RegionId region = 0; region < regions; ++region) {
-      entries[region].bundle_triangles = static_cast<std::uint32_t>(bundles[region].size());
-      std::move(level_parts[region].rbegin(), level_parts[region].rend(), std::back_inserter(model.parts));
-      if (!bundles[region].empty()) model.parts.push_back(std::move(bundle_parts[region]));
+      if (!entries[region].levels.empty()) level_parts[region].push_back(finest_.parts[region]);
     }
-    model.directory.connectivity_bytes =
-        std::accumulate(connectivity_sizes.begin(), connectivity_sizes.end(), std::uint64_t{0});
+    if (levels != nullptr) encode_levels(*levels, parallel, on_part_done, entries, level_parts);
+    for (RegionId region = 0; region < regions; ++region) {
+      std::move(level_parts[region].rbegin(), level_parts[region].rend(), std::back_inserter(model.parts));
+      if (entries[region].bundle_triangles > 0) model.parts.push_back(finest_.bundles[region]);
+    }
+    model.directory.connectivity_bytes = finest_.connectivity_bytes;
     model.directory.grid = grid_;
     model.directory.is_exact = source_.is_exact;
     model.directory.boundary_triangles =
         static_cast<std::uint32_t>(source_.partition.boundary_triangles.size());
+    if (auto ok = check_parts(model.directory.regions, model.parts); !ok) return forward_error(ok);
     return model;
   }
 
  private:
+  /// What no choice of levels changes, by region.
+  struct Finest {
+    std::vector<RegionEntry> entries;
+    std::vector<Bytes> parts, bundles;
+    std::uint64_t connectivity_bytes = 0;
+  };
+
+  void encode_finest(const ParallelFor& parallel, const std::function<void()>& on_part_done) {
+    const std::uint32_t regions = source_.partition.region_count + 1;
+    std::vector<RegionEntry>& entries = finest_.entries;
+    entries.resize(regions);
+    finest_.parts.resize(regions);
+    finest_.bundles.resize(regions);
+    std::vector<std::size_t> connectivity_sizes(regions, 0);
+    parallel(regions, [&](std::size_t i) {
+      const auto region = static_cast<RegionId>(i);
+      if (!by_region_.of(region).empty())
+        finest_.parts[i] = encode_one(region, entries[i], connectivity_sizes[i]);
+      on_part_done();
+    });
+    finest_.connectivity_bytes =
+        std::accumulate(connectivity_sizes.begin(), connectivity_sizes.end(), std::uint64_t{0});
+    // Bundles name boundary vertices by index, so they wait for all regions.
+    const auto bundles = group_boundary_triangles(source_.table, source_.partition);
+    parallel(regions, [&](std::size_t i) {
+      entries[i].bundle_triangles = static_cast<std::uint32_t>(bundles[i].size());
+      if (!bundles[i].empty())
+        finest_.bundles[i] = encode_joins(static_cast<RegionId>(i), bundles[i], entries);
+      on_part_done();
+    });
+  }
+
   template <class Encoder>
   void note(const PartId& id, const Encoder& symbols) const {
     if (hooks_.on_symbols) hooks_.on_symbols(id, symbols.tokens(), symbols.plain_bits());
@@ -183,22 +212,24 @@ class ModelEncoder {
   }
 
   /// All levels but the finest, one after the other: each needs maps of the whole mesh.
-  void encode_levels(const ParallelFor& parallel, const std::function<void()>& on_part_done,
-                     std::vector<RegionEntry>& entries, std::vector<std::vector<Bytes>>& level_parts) {
-    if (source_.levels == nullptr) return;
-    for (std::size_t level = 1; level < source_.levels->regions.size(); ++level) {
-      const LevelEncoder encoder(source_, grid_, weld_group_, level);
+  void encode_levels(const LevelledMesh& levels, const ParallelFor& parallel,
+                     const std::function<void()>& on_part_done, std::vector<RegionEntry>& entries,
+                     std::vector<std::vector<Bytes>>& level_parts) const {
+    ModelSource source = source_;
+    source.levels = &levels;
+    for (std::size_t level = 1; level < levels.regions.size(); ++level) {
+      const LevelEncoder encoder(source, grid_, weld_group_, level);
       parallel(entries.size() - 1, [&](std::size_t i) {
         const auto region = static_cast<RegionId>(i + 1);
-        encode_level(encoder, region, level, entries[region], level_parts[region]);
+        encode_level(encoder, levels, region, level, entries[region], level_parts[region]);
         on_part_done();
       });
     }
   }
 
-  void encode_level(const LevelEncoder& encoder, RegionId region, std::size_t level, RegionEntry& entry,
-                    std::vector<Bytes>& parts) {
-    const RegionLevel& source = source_.levels->regions[level][region];
+  void encode_level(const LevelEncoder& encoder, const LevelledMesh& levels, RegionId region,
+                    std::size_t level, RegionEntry& entry, std::vector<Bytes>& parts) const {
+    const RegionLevel& source = levels.regions[level][region];
     LevelEntry coarse = entry.levels.back();
     coarse.is_repeat = true;
     if (!source.is_repeat || source.dropped_bits != coarse.dropped_bits) {
@@ -246,17 +277,25 @@ class ModelEncoder {
     return bytes;
   }
 
-  const ModelSource& source_;
+  const ModelSource source_;
   const Grid& grid_;
-  const EncodeHooks& hooks_;
+  const EncodeHooks hooks_;
   VerticesByRegion by_region_;
   std::vector<std::uint32_t> weld_group_;                 ///< by vertex; empty if nothing is welded
   std::vector<std::uint32_t> boundary_index_;             ///< by vertex; kNone inside a region
   std::vector<std::vector<VertexId>> boundary_vertices_;  ///< by region and boundary index
   std::vector<TriangleId> local_of_triangle_;             ///< by triangle; kNone for boundary triangles
+  Finest finest_;                                         ///< without entries until it is encoded
 };
 
-}  // namespace
+ModelEncoder::ModelEncoder(const ModelSource& source, const Grid& grid, const EncodeHooks& hooks)
+    : impl_(std::make_unique<Impl>(source, grid, hooks)) {}
+ModelEncoder::~ModelEncoder() = default;
+
+Result<EncodedModel> ModelEncoder::encode(const LevelledMesh* levels, const ParallelFor& parallel,
+                                          const std::function<void()>& on_part_done) {
+  return impl_->encode(levels, parallel, on_part_done);
+}
 
 /// Groups are numbered along the mesh's borders, so that those along the rim of a part differ by one from
 /// each to the next; then come what copies lie inside.
@@ -282,10 +321,7 @@ std::vector<std::uint32_t> find_weld_groups(const CornerTable& table,
 
 Result<EncodedModel> encode_model(const ModelSource& source, const Grid& grid, const ParallelFor& parallel,
                                   const std::function<void()>& on_part_done, const EncodeHooks& hooks) {
-  if (auto ok = check_region_sizes(source.table, source.partition); !ok) return forward_error(ok);
-  EncodedModel model = ModelEncoder(source, grid, hooks).run(parallel, on_part_done);
-  if (auto ok = check_parts(model.directory.regions, model.parts); !ok) return forward_error(ok);
-  return model;
+  return ModelEncoder(source, grid, hooks).encode(source.levels, parallel, on_part_done);
 }
 
 }  // namespace selvage

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -48,6 +49,26 @@ struct EncodedModel {
 struct EncodeHooks {
   const CodecTables& tables = shipped_tables();
   std::function<void(const PartId&, std::span<const Token>, double plain_bits)> on_symbols = nullptr;
+};
+
+/// Encodes a model with one choice of levels after another. What does not depend on them, the finest level
+/// and the bundles, is encoded once.
+class ModelEncoder {
+ public:
+  /// Borrows `grid` and what the others refer to; `source.levels` is not looked at.
+  ModelEncoder(const ModelSource& source, const Grid& grid, const EncodeHooks& hooks);
+  ~ModelEncoder();
+  ModelEncoder(const ModelEncoder&) = delete;
+  ModelEncoder& operator=(const ModelEncoder&) = delete;
+
+  /// As encode_model, with `levels` or, if null, the finest only. `on_part_done` is also called for what was
+  /// there already.
+  Result<EncodedModel> encode(const LevelledMesh* levels, const ParallelFor& parallel,
+                              const std::function<void()>& on_part_done);
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 /// A level of a region that takes no less bytes than the one before is left out as its repeat.

@@ -256,6 +256,13 @@ Result<IngestedModel> ingest(const TriangleSoup& soup, const IngestOptions& opti
     return make_partition(mesh.table, segmentation.region_of_vertex, segmentation.region_count);
   });
   const Grid grid = make_grid(mesh.positions, options.bits);
+  const ModelSource source{.table = mesh.table,
+                           .positions = mesh.positions,
+                           .source_of_vertex = mesh.source_of_vertex,
+                           .is_turned = mesh.is_turned,
+                           .partition = partition,
+                           .is_exact = options.lossless};
+  ModelEncoder encoder(source, grid, {});
   // Once, but for levels that then turn out to take too many bytes.
   std::vector<LevelGoal> goals = options.levels;
   Result<EncodedModel> encoded;
@@ -270,14 +277,8 @@ Result<IngestedModel> ingest(const TriangleSoup& soup, const IngestOptions& opti
     const double parts = (2.0 + static_cast<double>(goals.size())) * (partition.region_count + 1);
     std::atomic<std::uint32_t> done = 0;
     encoded = clock.run("encode", [&] {
-      const ModelSource source{mesh.table,
-                               mesh.positions,
-                               mesh.source_of_vertex,
-                               mesh.is_turned,
-                               partition,
-                               options.lossless,
-                               goals.empty() ? nullptr : &levels};
-      return encode_model(source, grid, parallel, [&] { clock.report("encode", ++done / parts); });
+      return encoder.encode(goals.empty() ? nullptr : &levels, parallel,
+                            [&] { clock.report("encode", ++done / parts); });
     });
     if (clock.is_cancelled()) return cancelled();
     if (!encoded) return forward_error(encoded);
