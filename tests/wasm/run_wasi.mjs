@@ -4,5 +4,5 @@ import { readFile } from 'node:fs/promises';
 import { WASI } from 'node:wasi';
 const [module, ...args] = process.argv.slice(2);
 const wasi = new WASI({ version: 'preview1', args: [module, ...args], preopens: { '/': '/' } });
-const { instance } = await WebAssembly.instantiate(await readFile(module), wasi.getImportObject());
+const { instance } = await WebAssembly.instantiate(await readFile(module), { wasi_snapshot_preview1: wasi.wasiImport });
 process.exitCode = wasi.start(instance);
