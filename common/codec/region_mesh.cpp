@@ -2,9 +2,9 @@
 #include "common/codec/region_mesh.h"
 
 #include <algorithm>
-#include <numeric>
 #include <string>
 
+#include "common/base/disjoint_sets.h"
 #include "common/mesh/edge_groups.h"
 
 namespace selvage {
@@ -58,35 +58,14 @@ Result<std::vector<VertexId>> next_on_loops(const RegionMesh& mesh) {
   return next;
 }
 
-/// Corners that belong together, found by joining them two by two.
-class CornerSets {
- public:
-  explicit CornerSets(std::size_t corners) : parent_(corners), count_(corners) {
-    std::iota(parent_.begin(), parent_.end(), CornerId{0});
-  }
-  void join(CornerId a, CornerId b) {
-    a = root(a), b = root(b);
-    if (a == b) return;
-    parent_[std::max(a, b)] = std::min(a, b);
-    --count_;
-  }
-  std::size_t count() const { return count_; }
-
- private:
-  CornerId root(CornerId c) {
-    while (parent_[c] != c) c = parent_[c] = parent_[parent_[c]];
-    return c;
-  }
-  std::vector<CornerId> parent_;
-  std::size_t count_;
-};
-
 /// With every edge walked as often one way as the other, loops walking along the outside, the triangles of a
 /// fan can be walked around in one turn exactly if each shares an edge with another of them.
 Result<void> check_surface(const RegionMesh& mesh, std::span<const VertexId> next_on_loop) {
   const auto vertex = [&](CornerId c) { return mesh.triangles[triangle_of(c)][c % 3]; };
   const EdgeGroups edges = group_edges(mesh.triangles, mesh.vertex_count());
-  CornerSets fans(3 * mesh.triangles.size());
+  const auto corners = static_cast<std::uint32_t>(3 * mesh.triangles.size());
+  DisjointSets fans(corners);
+  std::size_t fan_count = corners;
   std::size_t loop_edges = 0;
   for (std::uint32_t e = 0; e < edges.size(); ++e) {
     const auto sides = edges[e];
@@ -95,8 +74,8 @@ Result<void> check_surface(const RegionMesh& mesh, std::span<const VertexId> nex
     for (const CornerId side : sides) {
       const bool is_along = vertex(next(side)) == a;
       balance += is_along ? 1 : -1;
-      fans.join(is_along ? next(side) : prev(side), next(sides[0]));
-      fans.join(is_along ? prev(side) : next(side), prev(sides[0]));
+      fan_count -= fans.merge(is_along ? next(side) : prev(side), next(sides[0]));
+      fan_count -= fans.merge(is_along ? prev(side) : next(side), prev(sides[0]));
     }
     const int along = next_on_loop[a] == b, against = next_on_loop[b] == a;
     if (balance != along - against) return violated("not walked both ways: an edge of vertex", a);
@@ -110,7 +89,7 @@ Result<void> check_surface(const RegionMesh& mesh, std::span<const VertexId> nex
   const auto unused = std::find(is_used.begin(), is_used.end(), false);
   if (unused != is_used.end())
     return violated("no triangle at vertex", static_cast<std::size_t>(unused - is_used.begin()));
-  if (fans.count() != mesh.vertex_count()) return violated("more fans than vertices:", fans.count());
+  if (fan_count != mesh.vertex_count()) return violated("more fans than vertices:", fan_count);
   return {};
 }
 

@@ -70,6 +70,7 @@ class Session {
   void wake_writer();
   void start_writer(Batch batch, std::size_t written);
   bool write_at_once();
+  void take_next(Batch& batch);
   asio::awaitable<void> read_loop();
   asio::awaitable<void> see_off();
   asio::awaitable<void> write_loop(Batch batch, std::size_t written);

@@ -60,15 +60,20 @@ void Session::wake_writer() {
   }
 }
 
+/// As much as suits the stream and the client's rate.
+void Session::take_next(Batch& batch) {
+  const std::uint64_t allowed = rate_.available(RateLimit::Clock::now());
+  outbox_.take(batch, std::min<std::uint64_t>(stream_->write_size(), allowed));
+  rate_.spend(batch.size_bytes());
+}
+
 /// What the kernel takes without waiting needs no coroutine. False if a writer has still something to do.
 bool Session::write_at_once() {
   if (closing_ || draining_ || outbox_.idle() || !stream_->may_write_at_once()) return false;
   thread_local Batch batch;
   is_writing_ = true;
   refuse_damaged();
-  const auto now = RateLimit::Clock::now();
-  outbox_.take(batch, std::min<std::uint64_t>(stream_->write_size(), rate_.available(now)));
-  rate_.spend(batch.size_bytes());
+  take_next(batch);
   const std::size_t written = stream_->write_at_once(batch.pieces());
   services_.counters.bytes_sent += written;
   is_writing_ = false;
@@ -109,16 +114,14 @@ asio::awaitable<void> Session::write_loop(Batch batch, std::size_t written) {
       if (is_broken) continue;
       refuse_damaged();
     }
-    const auto now = RateLimit::Clock::now();
-    outbox_.take(batch, std::min<std::uint64_t>(stream_->write_size(), rate_.available(now)));
+    take_next(batch);
     if (!batch.empty()) {
       if (!outbox_.full()) wake_reader_.notify();
-      rate_.spend(batch.size_bytes());
       const Result<void> all_written = co_await write(batch);
       is_broken = !all_written;
       continue;
     }
-    const auto pause = rate_.wait_for(kBurst, now);
+    const auto pause = rate_.wait_for(kBurst, RateLimit::Clock::now());
     if (outbox_.idle() || pause <= RateLimit::Clock::duration::zero()) break;
     co_await rate_pause_.wait_for(pause);
   }
